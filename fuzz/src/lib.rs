@@ -6,19 +6,19 @@
 use ambulo::analysis::feasibility::Thresholds;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
-use ambulo::job::Job;
+use ambulo::job::{Job, ModelChoice};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::kinematics::sensor_fit::{SensorAxes, SensorTrial, fit_sensors};
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::marker_set::MarkerSet;
-use ambulo::model::{BySide, from_osim};
+use ambulo::model::{BySide, from_osim, to_osim};
 use ambulo::motion::{
-    B3dTrial, SmplMotion, Window, coordinates_from_table, events_from_mvnx, is_bids_markers, markers_from_bids,
+    B3dTrial, SmplMotion, Window, events_from_mvnx, is_bids_markers, markers_from_bids,
     segment_poses_from_mvnx, sensors_from_table,
 };
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
-use ambulo::study::{self, Settings, Source, StatedSize};
+use ambulo::study::StatedSize;
 use ambulo_formats::b3d::B3d;
 use ambulo_formats::bids_motion::BidsMotion;
 use ambulo_formats::bvh::Bvh;
@@ -32,6 +32,7 @@ use ambulo_formats::table::{OrientationTable, Table};
 use ambulo_formats::trc::Trc;
 use ambulo_results::Folder;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// A check of one input.
 pub type Check = fn(&[u8]);
@@ -277,12 +278,24 @@ pub fn study_coordinates(bytes: &[u8]) {
     if table.rows() * table.columns().count() > MOST_SAMPLES {
         return;
     }
-    let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
-    let model = build.human().expect("a built-in body").model;
+    let mut files = |path: &Path| Ok(if path == Path::new(BODY) { body().to_vec() } else { bytes.to_vec() });
+    let job = Job { model: Some(ModelChoice::File(BODY.into())), ..Job::of("recording.mot") };
     let mut findings = Findings::default();
-    if let Ok(motion) = coordinates_from_table(&model, &table, "recording", &mut findings) {
-        let _ = study::run(Source::coordinates(model, motion), &Settings::default(), &mut findings);
-    }
+    let _ = job.read(&mut files, &mut findings).and_then(|read| read.run(&mut findings));
+}
+
+/// File of the built-in body.
+const BODY: &str = "body.osim";
+
+/// The built-in body as a model of OpenSim, written once.
+fn body() -> &'static [u8] {
+    static BODY: LazyLock<Vec<u8>> = LazyLock::new(|| {
+        let build = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true };
+        let model = build.human().expect("a built-in body").model;
+        let written = to_osim(&model).expect("a body that OpenSim can represent").write();
+        written.expect("a model that can be written")
+    });
+    &BODY
 }
 
 /// Markers with or without plates, studied with the built-in body.

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { type Material, type Mesh, Quaternion, Vector3 } from "three";
-import type { PageSide, View, ViewShape } from "../src/contract";
+import type { PageSide, View, ViewBody, ViewShape } from "../src/contract";
 import { arrowParts, arrowScale, dashParts } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
@@ -203,6 +203,31 @@ test("the sample walks towards +x and fits its extent", () => {
   const extent = extentOf(session.view, numbers, path, timeline);
   assert.ok(extent.top > 1.5 && extent.top < 2, `${extent.top}`);
   assert.ok(extent.along < 1 && extent.across < 0.5);
+});
+
+test("the picture frames the person of a scene, not a ball far away", () => {
+  const numbers = new SampleNumbers();
+  const [session] = samplePage(numbers).sessions;
+  assert.ok(session?.view);
+  const view: View = session.view;
+  const constant = (value: number) => numbers.add(Array.from({ length: session.time.frames }, () => value));
+  const ball: ViewBody = {
+    name: "ball",
+    side: null,
+    shapes: [{ kind: "capsule", from: [0, 0, 0], to: [0, 0.01, 0], radius: 0.3 }],
+    position: [constant(24), constant(1.2), constant(15)],
+    rotation: [constant(0), constant(0), constant(0), constant(1)],
+  };
+  const person = view.bodies.map((body) => ({ ...body, name: `bob/${body.name}` }));
+  const extent = (bodies: ViewBody[]) => {
+    const scene = { ...view, bodies };
+    const timeline = new Timeline(session.time);
+    return extentOf(scene, numbers, new Path(scene, numbers, timeline), timeline);
+  };
+  assert.deepEqual(extent([...person, ball]), extent(person));
+  // Without a person, all bodies count.
+  const things = [{ ...ball, name: "stone", position: [constant(0), constant(1), constant(0)] } as ViewBody, ball];
+  assert.ok(extent(things).along > 20 && extent(things).across > 10);
 });
 
 test("walking on the spot has the direction of the pelvis", () => {

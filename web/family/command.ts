@@ -1,20 +1,23 @@
 // Solves walks with the command that the variable AMBULO names.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import type { Request, WalkArgs } from "../src/request";
 import { KEPT, readSolved, type Solved } from "./solved";
 
 /** Instants per second of the walks that are read. */
 const RATE_HZ = 500;
 
-/** What the command finds with these words, or what it complains of. */
-export async function solve(words: readonly string[]): Promise<Solved | string> {
+/** The walk that the command finds, or what it complains of. */
+export async function solve(walk: WalkArgs): Promise<Solved | string> {
   const folder = mkdtempSync(join(tmpdir(), "ambulo-family-"));
-  const all = ["walk", ...words, "--cycles", "1", "--rate", `${RATE_HZ}`, "--keep", KEPT.join(), "-o", folder];
+  const [output, file] = [join(folder, "out"), join(folder, "request.json")];
+  const request: Request = { walk: { ...walk, cycles: 1, rate: RATE_HZ, keep: [...KEPT], output } };
   try {
-    const child = spawn(process.env["AMBULO"] ?? "ambulo", all, { stdio: ["ignore", "ignore", "pipe"] });
+    writeFileSync(file, JSON.stringify(request));
+    const child = spawn(process.env["AMBULO"] ?? "ambulo", ["run", file], { stdio: ["ignore", "ignore", "pipe"] });
     let complained = "";
     child.stderr.on("data", (piece) => {
       complained += piece;
@@ -23,7 +26,7 @@ export async function solve(words: readonly string[]): Promise<Solved | string> 
     if (code !== 0) {
       return complained;
     }
-    return readSolved(new Map(readdirSync(folder).map((name) => [name, readFileSync(join(folder, name))])));
+    return readSolved(new Map(readdirSync(output).map((name) => [name, readFileSync(join(output, name))])));
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }

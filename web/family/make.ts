@@ -13,6 +13,7 @@ import {
   type Walk,
   Walks,
 } from "../src/family";
+import type { FigureArgs, WalkArgs } from "../src/request";
 import { solve } from "./command";
 import { type Solved, sampled, scaledPoints } from "./solved";
 
@@ -32,13 +33,13 @@ const LARGEST = 32_767;
 
 type Point = readonly [speed: number, step: number, slope: number];
 
-/** The walk with these words; none if the command found none, which is printed. */
-async function found(words: readonly string[]): Promise<Solved | undefined> {
-  const walk = await solve(words);
-  if (typeof walk !== "string") {
-    return walk;
+/** A walk that is solved; none if the command found none, which is printed. */
+async function found(walk: WalkArgs): Promise<Solved | undefined> {
+  const solved = await solve(walk);
+  if (typeof solved !== "string") {
+    return solved;
   }
-  process.stderr.write(`${words.join(" ")}: ${walk.split("\n")[0]}\n`);
+  process.stderr.write(`${JSON.stringify(walk)}: ${solved.split("\n")[0]}\n`);
   return undefined;
 }
 
@@ -68,18 +69,17 @@ function centres(axes: Axes): Point[] {
 
 /** A body, as the command knows it. */
 interface Body {
-  words: string[];
+  figure: FigureArgs;
   /** Leg length [m]. */
   leg: number;
   /** [m/s²] */
   gravity: number;
 }
 
-/** Words of the walk of a body at a point; `preferred` is the preferred step divided by the leg length. */
-function wordsAt([speed, step, slope]: Point, { words, leg, gravity }: Body, preferred: number): string[] {
-  const pace = ["--speed", `${speed * Math.sqrt(gravity * leg)}`];
-  const length = step === 1 ? [] : ["--step-length", `${step * preferred * leg}`];
-  return [...words, ...pace, ...length, ...(slope === 0 ? [] : ["--slope", `${slope}`])];
+/** The walk of a body at a point; `preferred` is the preferred step divided by the leg length. */
+function walkAt([speed, step, slope]: Point, { figure, leg, gravity }: Body, preferred: number): WalkArgs {
+  const gait = { speed: speed * Math.sqrt(gravity * leg), step_length: step === 1 ? null : step * preferred * leg };
+  return { figure, gait, conditions: { slope: slope === 0 ? null : slope } };
 }
 
 /** Steps of the stored numbers by quantity, and the range of the numbers. */
@@ -112,12 +112,12 @@ function errorsOf(walk: Walk, solved: Solved): Errors {
 
 /** The usual body and the steps that it prefers at some speeds, divided by its leg length. */
 async function prefers(speeds: readonly number[]): Promise<{ body: Body; legPerStature: number; steps: number[] }> {
-  const usual = await found([]);
+  const usual = await found({});
   if (!usual) {
     throw new Error("no walk without options");
   }
-  const body = { words: [], leg: usual.leg, gravity: usual.gravity };
-  const walks = await all(speeds, (speed) => found(wordsAt([speed, 1, 0], body, 1)));
+  const body = { figure: {}, leg: usual.leg, gravity: usual.gravity };
+  const walks = await all(speeds, (speed) => found(walkAt([speed, 1, 0], body, 1)));
   const steps = walks.map((walk) => (walk ? walk.stepLength / walk.leg : Number.NaN));
   return { body, legPerStature: usual.leg / usual.height, steps };
 }
@@ -126,10 +126,10 @@ async function prefers(speeds: readonly number[]): Promise<{ body: Body; legPerS
 async function solveGrid(axes: Axes, body: Body, preferred: (point: Point) => number): Promise<(Walk | undefined)[]> {
   const hasSlopes = axes.slope.length > 1;
   return all(points(axes), async (point) => {
-    const words = wordsAt(point, body, preferred(point));
+    const walk = walkAt(point, body, preferred(point));
     // Between slopes, level ground is predicted as well.
-    const walk = await found(hasSlopes && point[2] === 0 ? [...words, "--mode", "predict"] : words);
-    return walk && sampled(walk);
+    const solved = await found(hasSlopes && point[2] === 0 ? { ...walk, mode: "predict" } : walk);
+    return solved && sampled(solved);
   });
 }
 
@@ -161,10 +161,9 @@ async function make(): Promise<Family> {
     grid.supports = walks.map((walk) => Number((walk?.support ?? 0).toFixed(6)));
     grid.errors = await all(centres(grid.axes), async (point, number) => {
       const [mass, height] = PERSONS[number % PERSONS.length] ?? PERSONS[0];
-      const words = ["--mass", `${mass}`, "--height", `${height}`];
-      const person = { words, leg: table.leg(height), gravity: body.gravity };
+      const person = { figure: { mass, height }, leg: table.leg(height), gravity: body.gravity };
       const between = table.interpolate(grid, point);
-      const exact = between && (await found(wordsAt(point, person, preferred(point))));
+      const exact = between && (await found(walkAt(point, person, preferred(point))));
       return between && exact ? errorsOf(between, exact) : null;
     });
   }

@@ -1,5 +1,6 @@
 // The command in a worker, without any connection.
 
+import type { Request } from "./request";
 import type { Ended, Files } from "./wasi";
 import type { FromWorker, ToWorker } from "./worker";
 
@@ -23,6 +24,17 @@ export function forbidConnections(document: Document): void {
   document.head.append(meta);
 }
 
+/** The file in which the command finds a request; no dropped file has this name. */
+const REQUEST = ".request.json";
+
+/** How the command takes a request. */
+export interface Handling {
+  /** Further options of the verb, as the visitor typed them: the command reads them. */
+  options?: string;
+  /** Print JSON, or only the command line that means the same. */
+  print?: "--json" | "--words";
+}
+
 /** Why the visitor stopped a command. */
 export class Stopped extends Error {}
 
@@ -30,6 +42,7 @@ export class Stopped extends Error {}
 export class Engine {
   private worker: Worker;
   private reject: ((reason: Error) => void) | undefined;
+  private stops = 0;
   /** Settled when the command before has ended. */
   private last: Promise<unknown> = Promise.resolve();
 
@@ -41,15 +54,25 @@ export class Engine {
     this.worker = this.start();
   }
 
-  /** Runs a command after those before; the files are copied. */
-  run(words: string[], files: Files): Promise<Ended> {
-    const ended = this.last.then(() => this.runNow(words, files));
+  /** Runs a request after those before; the files are copied. */
+  run(request: Request, files: Files, { options, print }: Handling = {}): Promise<Ended> {
+    const typed = options?.trim() ? ["--options", options] : [];
+    const words = ["run", REQUEST, ...typed, ...(print ? [print] : [])];
+    const all = new Map([...files, [REQUEST, new TextEncoder().encode(JSON.stringify(request))]]);
+    const before = this.stops;
+    const ended = this.last.then(() => {
+      if (before !== this.stops) {
+        throw new Stopped();
+      }
+      return this.runNow(words, all);
+    });
     this.last = ended.catch(() => {});
     return ended;
   }
 
-  /** Ends the running command. */
+  /** Ends the running command, and all that wait. */
   stop(): void {
+    this.stops++;
     this.worker.terminate();
     this.reject?.(new Stopped());
     this.worker = this.start();

@@ -1,7 +1,9 @@
-// Guesses what each dropped file is for and makes the words of the command from that. The command itself reads and checks the files; a
+// Guesses what each dropped file is for and makes a request from that. The command itself reads and checks the request and the files; a
 // wrong guess can be changed on the page.
 
-/** Role of a file. Most are named like the option of the command that takes the file. */
+import type { Request } from "./request";
+
+/** Role of a file. */
 export const ROLES = {
   recording: "recording",
   static: "standing trial",
@@ -34,30 +36,13 @@ export interface Dropped extends Named {
   role: Role;
 }
 
-/** The visitor's statements besides the files, as typed; may be empty. */
+/** The visitor's statements about the person, as typed; may be empty. */
 export interface Stated {
   /** Body mass [kg]. */
   mass: string;
   /** Stature [m]. */
   height: string;
-  /** Further options of the command. */
-  more: string;
 }
-
-/** Roles whose files are the value of the option with this name. */
-const OPTIONS = [
-  "model",
-  "static",
-  "grf",
-  "loads",
-  "setup",
-  "marker-set",
-  "markers",
-  "smpl",
-  "person",
-  "thresholds",
-  "device",
-] as const satisfies readonly Role[];
 
 /** So much of a file is searched for words [bytes]. */
 const BEGINNING = 1 << 16;
@@ -138,40 +123,50 @@ export async function withRoles(files: readonly Named[], walks: (file: Named) =>
   return out;
 }
 
-/** The words of a line as a shell would split them. */
-export function splitWords(line: string): string[] {
-  const found = line.match(/(?:"[^"]*"|'[^']*'|[^\s"'])+/g) ?? [];
-  return found.map((word) => word.replace(/"([^"]*)"|'([^']*)'/g, "$1$2"));
+/** The folder in which the command writes its results. */
+export const OUTPUT = "out";
+
+/** A number as typed; other text stays, so that the command refuses it with the name of its field. */
+function numberOf(typed: string): number | null {
+  const text = typed.trim();
+  const number = Number(text);
+  return text === "" ? null : Number.isFinite(number) ? number : (text as unknown as number);
 }
 
-/** A file name that no command takes for an option. */
-function path(name: string): string {
-  return name.startsWith("-") ? `./${name}` : name;
-}
-
-/** The words of the command for these files, without the name of the program. */
-export function wordsFor(files: readonly Dropped[], { mass, height, more }: Stated): string[] {
-  const names = (role: Role): string[] => files.filter((file) => file.role === role).map(({ name }) => path(name));
-  const option = (name: string, value: string): string[] => (value.trim() === "" ? [] : [`--${name}`, value.trim()]);
-  const end = [...splitWords(more), "-o", "out"];
-  if (names("scene").length > 0) {
-    return ["simulate", ...names("scene"), ...end];
+/** The request for these files. */
+export function requestFor(files: readonly Dropped[], stated: Stated): Request {
+  const names = (role: Role): string[] => files.filter((file) => file.role === role).map(({ name }) => name);
+  const only = (role: Role): string | null => {
+    const [name, second] = names(role);
+    if (second !== undefined) {
+      throw new Error(
+        `${name} and ${second}: found two files as "${ROLES[role]}"; expected one. Change what they are.`,
+      );
+    }
+    return name ?? null;
+  };
+  const [mass, height] = [numberOf(stated.mass), numberOf(stated.height)];
+  const scene = only("scene");
+  if (scene !== null) {
+    return { simulate: { scene, output: OUTPUT } };
   }
-  const size = [...option("mass", mass), ...option("height", height)];
-  if (names("gait").length > 0 && names("recording").length === 0) {
-    return ["walk", ...names("gait").flatMap((name) => ["--gait", name]), ...size, ...end];
+  const [gait, recording] = [only("gait"), only("recording")];
+  if (gait !== null && recording === null) {
+    return { walk: { gait: { gait }, figure: { mass, height }, output: OUTPUT } };
   }
-  const options = OPTIONS.flatMap((role) => names(role).flatMap((name) => [`--${role}`, name]));
-  return ["forces", ...names("recording"), ...options, ...size, ...end];
-}
-
-/** The words of the command for a walk with these options and values. */
-export function wordsOfWalk(options: readonly (readonly [option: string, value: string])[]): string[] {
-  return ["walk", ...options.flatMap(([option, value]) => [`--${option}`, value]), "-o", "out"];
-}
-
-/** A command line as it is typed in a shell. */
-export function commandLine(words: readonly string[]): string {
-  const quoted = words.map((word) => (/^[\w./\\+=:@%,~-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`));
-  return ["ambulo", ...quoted].join(" ");
+  const job = {
+    recording,
+    standing: only("static"),
+    model: only("model"),
+    marker_set: only("marker-set"),
+    markers: only("markers"),
+    size: { mass_kg: mass, height_m: height },
+    smpl: only("smpl"),
+    forces: { table: only("grf"), loads: only("loads") },
+    person: only("person"),
+    device: only("device"),
+    thresholds: only("thresholds"),
+    setups: names("setup"),
+  };
+  return { forces: { job, output: OUTPUT } };
 }

@@ -1,10 +1,11 @@
 // The page: takes files, runs the command in a worker, shows the report and saves what was computed.
 
-import { Engine, forbidConnections, Stopped } from "./engine";
+import { Engine, forbidConnections, type Handling, Stopped } from "./engine";
 import { type Between, type Family, type Values, Walks } from "./family";
-import { commandLine, type Dropped, type Named, ROLES, type Role, type Stated, withRoles, wordsFor } from "./files";
+import { type Dropped, type Named, OUTPUT, ROLES, type Role, requestFor, withRoles } from "./files";
 import { Preview } from "./preview";
 import { Pushing } from "./pushing";
+import type { Request } from "./request";
 import { Sliders } from "./sliders";
 import { KEPT, SCENE } from "./walker";
 import type { Ended, Files } from "./wasi";
@@ -16,13 +17,12 @@ declare const WORKER: string;
 declare const FAMILY: string;
 declare const OFFLINE: string;
 
-/** The folder in which the command writes its results. */
-const OUT = "out/";
+const OUT = `${OUTPUT}/`;
 const REPORT = "report.html";
 const SUMMARY = "summary.json";
-const DEMO = ["demo", "-o", "out"];
+const DEMO: Request = { demo: { output: OUTPUT } };
 /** Enough to show the demo; all of its files are made when they are saved. */
-const ONLY_REPORT = ["--keep", "report"];
+const ONLY_REPORT: Request = { demo: { keep: ["report"], output: OUTPUT } };
 /** Only so much may the report do; it cannot reach this page. */
 const SANDBOX = "allow-scripts allow-downloads allow-modals";
 
@@ -36,8 +36,8 @@ interface Shown {
   report: Uint8Array | undefined;
   /** Files of the result folder. */
   files: Files;
-  /** Words of the command that makes all files, if these are not all. */
-  all: string[] | undefined;
+  /** The request that makes all files, if these are not all. */
+  all: Request | undefined;
 }
 
 function byId<T extends HTMLElement = HTMLElement>(id: string): T {
@@ -62,9 +62,11 @@ class Page {
   /** Roles that the visitor chose, by file. */
   private readonly chosen = new Map<string, Role>();
   private shown: Shown | undefined;
+  /** The request of which the command line is shown. */
+  private lined: string | undefined;
   private running = false;
   /** A walk that was asked for while another command runs. */
-  private next: string[] | undefined;
+  private next: Request | undefined;
   private view: View = "page";
   private previews: Preview | undefined;
   private readonly pushing = new Pushing(
@@ -85,7 +87,7 @@ class Page {
   private readonly sliders = new Sliders(
     byId<HTMLFormElement>("walk"),
     (values) => this.preview(values),
-    (words) => this.walk(words),
+    (request) => this.walk(request),
   );
 
   constructor() {
@@ -172,7 +174,8 @@ class Page {
     if (!this.engine) {
       return true;
     }
-    const { code, printed } = await this.engine.run(["events", name, "--json"], new Map([[name, bytes]]));
+    const request: Request = { events: { input: name } };
+    const { code, printed } = await this.engine.run(request, new Map([[name, bytes]]), { print: "--json" });
     if (code !== 0) {
       return true;
     }
@@ -211,8 +214,29 @@ class Page {
     byId("list").replaceChildren(...rows);
   }
 
-  private stated(): Stated {
-    return { mass: field("mass").value, height: field("height").value, more: field("more").value };
+  /** The request for these files, with what the visitor states. */
+  private request(files: readonly Dropped[]): Request {
+    return requestFor(files, { mass: field("mass").value, height: field("height").value });
+  }
+
+  /** Shows the command line that computes the same in a terminal. */
+  private async showLine(): Promise<void> {
+    const isDemo = this.files.length === 0;
+    const options = isDemo ? "" : field("more").value;
+    try {
+      const request = isDemo ? DEMO : this.request(this.files);
+      const asked = JSON.stringify([request, options]);
+      if (this.engine && asked !== this.lined) {
+        this.lined = asked;
+        const { printed, complained } = await this.engine.run(request, new Map(), { options, print: "--words" });
+        if (this.lined === asked) {
+          byId("line").textContent = printed.trim() || complained.trim();
+        }
+      }
+    } catch (thrown) {
+      this.lined = undefined;
+      byId("line").textContent = thrown instanceof Stopped ? "" : String(thrown);
+    }
   }
 
   private refresh(): void {
@@ -228,7 +252,10 @@ class Page {
     }
     control("save-report").disabled = this.running || !this.shown?.report;
     control("save-all").disabled = this.running || !this.shown;
-    byId("line").textContent = commandLine(this.files.length === 0 ? DEMO : wordsFor(this.files, this.stated()));
+    // After a computation, which keeps the command busy.
+    if (!this.running) {
+      this.showLine();
+    }
   }
 
   /** Opens or closes the input, which shares a narrow screen with the result. */
@@ -238,7 +265,7 @@ class Page {
   }
 
   private async demo(): Promise<void> {
-    await this.run([...DEMO, ...ONLY_REPORT], new Map(), "demo", DEMO);
+    await this.run(ONLY_REPORT, new Map(), { name: "demo", all: DEMO });
   }
 
   /** Shows a walk that is interpolated, until the exact one is solved. */
@@ -262,8 +289,8 @@ class Page {
 
   /** The results of a scene for the walker; none if the visitor stopped it or it failed. */
   private async simulate(scene: string): Promise<Files | undefined> {
-    const words = ["simulate", SCENE, "--keep", KEPT, "-o", "out"];
-    const ended = await this.command(words, new Map([[SCENE, new TextEncoder().encode(scene)]]));
+    const request: Request = { simulate: { scene: SCENE, keep: [KEPT], output: OUTPUT } };
+    const ended = await this.command(request, new Map([[SCENE, new TextEncoder().encode(scene)]]));
     if (ended && ended.code > 1) {
       this.fail(ended.complained.trim());
     } else if (ended) {
@@ -273,48 +300,59 @@ class Page {
   }
 
   /** A walk without files; the one before is given up. */
-  private async walk(words: string[]): Promise<void> {
+  private async walk(request: Request): Promise<void> {
     if (this.running) {
-      this.next = words;
+      this.next = request;
       this.engine?.stop();
       return;
     }
-    await this.run(words, new Map(), "walk");
+    await this.run(request, new Map(), { name: "walk", all: undefined });
   }
 
   private async compute(): Promise<void> {
     const used = this.files.filter(({ role }) => role !== "unused");
     const main = used.find(({ role }) => role === "recording") ?? used[0];
     const files = new Map(used.map(({ name, bytes }) => [name, bytes]));
-    await this.run(wordsFor(used, this.stated()), files, main?.name.replace(/\.[^.]*$/, "") ?? "result");
+    const name = main?.name.replace(/\.[^.]*$/, "") ?? "result";
+    try {
+      const request = this.request(used);
+      await this.run(request, files, { name, all: undefined }, { options: field("more").value });
+    } catch (thrown) {
+      this.fail(thrown instanceof Error ? thrown.message : String(thrown));
+    }
   }
 
-  private async run(words: string[], files: Files, name: string, all?: string[]): Promise<void> {
+  private async run(
+    request: Request,
+    files: Files,
+    shown: Pick<Shown, "name" | "all">,
+    handling: Handling = {},
+  ): Promise<void> {
     const start = performance.now();
-    const ended = await this.command(words, files);
+    const ended = await this.command(request, files, handling);
     if (ended) {
-      this.show(ended, { name, all }, (performance.now() - start) / 1000);
+      this.show(ended, shown, (performance.now() - start) / 1000);
       this.refresh();
     }
     if (this.next) {
-      const words = this.next;
+      const next = this.next;
       this.next = undefined;
-      await this.walk(words);
+      await this.walk(next);
     } else if (this.view === "preview") {
       this.see("page");
     }
   }
 
   /** Runs a command; none if another one runs, if the visitor stops it, or if it ends early. */
-  private async command(words: string[], files: Files): Promise<Ended | undefined> {
+  private async command(request: Request, files: Files, handling: Handling = {}): Promise<Ended | undefined> {
     if (!this.engine || this.running) {
       return undefined;
     }
     this.running = true;
-    this.say(`Computing: ${commandLine(words)} ...`);
+    this.say(`Computing: ambulo ${Object.keys(request).join()} ...`);
     this.refresh();
     try {
-      return await this.engine.run(words, files);
+      return await this.engine.run(request, files, handling);
     } catch (thrown) {
       if (!this.next) {
         this.fail(

@@ -1,12 +1,13 @@
 // Sliders for a walk without files. They start at the values of the demo walk, so no default is written twice; only those that were moved become
-// options of the command.
+// part of the request.
 
 import type { Between, Values } from "./family";
-import { wordsOfWalk } from "./files";
+import { OUTPUT } from "./files";
+import type { Request } from "./request";
 
-/** A slider, the option that it sets, and where a summary has its value. */
+/** A slider by its name in the form, and where a summary has its value. */
 interface Slider {
-  option: string;
+  option: Option;
   unit: string;
   digits: number;
   valueIn(summary: Summary): number | undefined;
@@ -18,6 +19,8 @@ interface Summary {
   height_m?: number;
   walk?: { speed_asked_m_s: number; step_length_m: number } | null;
 }
+
+type Option = "speed" | "step-length" | "height" | "mass" | "slope";
 
 const SLIDERS: Slider[] = [
   { option: "speed", unit: "m/s", digits: 2, valueIn: ({ walk }) => walk?.speed_asked_m_s },
@@ -34,14 +37,14 @@ const REST_MS = 300;
 
 /** The sliders of the page. */
 export class Sliders {
-  private readonly moved = new Set<string>();
+  private readonly moved = new Set<Option>();
   private timer = 0;
 
-  /** `preview` is called while a slider moves, `compute` with the words of the command when it is released. */
+  /** `preview` is called while a slider moves, `compute` with the request when it is released. */
   constructor(
     private readonly form: HTMLFormElement,
     private readonly preview: (values: Values) => Between | undefined,
-    private readonly compute: (words: string[]) => void,
+    private readonly compute: (request: Request) => void,
   ) {
     for (const slider of SLIDERS) {
       const input = this.input(slider);
@@ -57,14 +60,14 @@ export class Sliders {
       });
       input.addEventListener("change", () => {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.compute(this.words()), REST_MS) as unknown as number;
+        this.timer = setTimeout(() => this.compute(this.request()), REST_MS) as unknown as number;
       });
       this.label(slider);
     }
     form.addEventListener("reset", () => {
       this.moved.clear();
       // The form puts its own values in after this event.
-      setTimeout(() => this.compute(this.words()));
+      setTimeout(() => this.compute(this.request()));
     });
   }
 
@@ -89,7 +92,7 @@ export class Sliders {
   }
 
   private values(): Values {
-    const value = (option: string): number => (this.form.elements.namedItem(option) as HTMLInputElement).valueAsNumber;
+    const value = (option: Option): number => (this.form.elements.namedItem(option) as HTMLInputElement).valueAsNumber;
     return {
       speed: value(SPEED),
       stepLength: this.moved.has(STEP) ? value(STEP) : undefined,
@@ -99,11 +102,19 @@ export class Sliders {
     };
   }
 
-  private words(): string[] {
-    // Level ground is no condition: the walk is then near normative curves.
-    const isLevel = ({ option }: Slider): boolean => option === "slope" && this.values().slope === 0;
-    const moved = SLIDERS.filter((slider) => this.moved.has(slider.option) && !isLevel(slider));
-    return wordsOfWalk(moved.map((slider) => [slider.option, this.input(slider).value]));
+  private request(): Request {
+    const { speed, height, mass, slope } = this.values();
+    const moved = (option: Option, value: number | undefined): number | null =>
+      this.moved.has(option) && value !== undefined ? value : null;
+    return {
+      walk: {
+        gait: { speed: moved("speed", speed), step_length: moved("step-length", this.values().stepLength) },
+        figure: { height: moved("height", height), mass: moved("mass", mass) },
+        // Level ground is no condition: the walk is then near normative curves.
+        conditions: { slope: slope === 0 ? null : moved("slope", slope) },
+        output: OUTPUT,
+      },
+    };
   }
 
   private input({ option }: Slider): HTMLInputElement {

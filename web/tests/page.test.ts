@@ -70,6 +70,11 @@ async function isSame(
   return found;
 }
 
+/** Waits until the page shows this command line, which the program writes. */
+async function isLine(page: Page, expected: string): Promise<void> {
+  await page.waitForFunction((line) => document.querySelector("#line")?.textContent === line, expected);
+}
+
 /** Moves the slider of the speed for some seconds; how many different walks were drawn per second. */
 async function updates(seconds: number): Promise<number> {
   const slider = document.querySelector<HTMLInputElement>("#walk [name=speed]") as HTMLInputElement;
@@ -160,7 +165,7 @@ test("every kind of file gives the program's results", async (context) => {
       await shown(page, "demo");
       await compute(page, inputs, "75");
       await shown(page, "walk");
-      assert.equal(await page.textContent("#line"), `ambulo forces ${words} -o out`);
+      await isLine(page, `ambulo forces ${words} -o out`);
       await isSame(context, page, ["forces", ...words.split(" "), "-o", "out"], inputs);
       assert.deepEqual(complaints, []);
     });
@@ -185,8 +190,7 @@ test("HC032A03: dropped files are told apart, and the result is the program's", 
     assert.ok(seconds <= RECORDING_S, `${seconds} s`);
     await isSame(context, page, ["forces", "HC032A03.c3d", "-o", "out"], [walk]);
     await compute(page, [standing]);
-    await page.waitForFunction(() => document.querySelector("#line")?.textContent?.includes("--static"));
-    assert.equal(await page.textContent("#line"), "ambulo forces HC032A03.c3d --static HC032A01.c3d -o out");
+    await isLine(page, "ambulo forces HC032A03.c3d --static HC032A01.c3d -o out");
   });
 });
 
@@ -399,7 +403,7 @@ test("a walk follows the sliders", async (context) => {
     const height = await value("height");
     assert.equal(isNear(context, files, { speed, height, mass: HELD_OUT.mass }), preview);
     await page.click("#walk button[type=reset]");
-    for (const begin of ["Computing: ambulo walk -o out", "walk: computed"]) {
+    for (const begin of ["Computing: ambulo walk", "walk: computed"]) {
       await page.waitForFunction((begin) => document.querySelector("#status")?.textContent?.startsWith(begin), begin);
     }
     assert.deepEqual(complaints, []);

@@ -55,16 +55,43 @@ fn lists_of_examples_are_complete() {
     }
 }
 
-/// `docs/METHODS.md` names files by the ends of their paths.
+/// `docs/METHODS.md` and `docs/PAPER.md` name files by the ends of their paths.
 #[test]
 fn every_file_of_the_methods_exists() {
-    let text = read(&workspace::root().join("docs/METHODS.md"));
+    let sources = sources();
+    for document in ["docs/METHODS.md", "docs/PAPER.md"] {
+        let text = read(&workspace::root().join(document));
+        let names = text.split('`').skip(1).step_by(2).filter(|name| name.ends_with(".rs"));
+        let missing: Vec<&str> = names.filter(|name| !sources.iter().any(|path| path.ends_with(name))).collect();
+        assert!(missing.is_empty(), "{document}: files that do not exist: {missing:?}");
+    }
+}
+
+/// A row of `docs/PAPER.md` names a file, then its functions or types.
+#[test]
+fn every_function_of_the_paper_is_in_its_file() {
+    let (sources, text) = (sources(), read(&workspace::root().join("docs/PAPER.md")));
+    let mut seen = 0;
+    for row in text.lines().filter(|line| line.starts_with("| ")) {
+        let Some((before, names)) = row.split_once(".rs` | ") else { continue };
+        let file = format!("{}.rs", before.rsplit('`').next().unwrap_or_default());
+        let source = sources.iter().find(|path| path.ends_with(&file)).map(|path| read(path)).unwrap_or_default();
+        for name in names.split('`').skip(1).step_by(2) {
+            let heads = ["fn ", "struct ", "enum "].map(|head| format!("{head}{name}"));
+            let is_whole = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+            let found = heads.iter().any(|head| source.split(head.as_str()).skip(1).any(is_whole));
+            assert!(found, "docs/PAPER.md: `{name}` is not in `{file}`");
+            seen += 1;
+        }
+    }
+    assert!(seen > 25, "only {seen} functions found");
+}
+
+/// All source files of the crates.
+fn sources() -> Vec<PathBuf> {
     let crates = entries(&workspace::root().join("crates"));
     let folders = crates.iter().flat_map(|folder| ["src", "tests"].map(|part| folder.join(part)));
-    let sources: Vec<PathBuf> = folders.filter(|folder| folder.is_dir()).flat_map(|folder| below(&folder)).collect();
-    let names = text.split('`').skip(1).step_by(2).filter(|name| name.ends_with(".rs"));
-    let missing: Vec<&str> = names.filter(|name| !sources.iter().any(|path| path.ends_with(name))).collect();
-    assert!(missing.is_empty(), "files that do not exist: {missing:?}");
+    folders.filter(|folder| folder.is_dir()).flat_map(|folder| below(&folder)).collect()
 }
 
 /// Scenes in `examples/` and those that the library contains, and programs in `crates/*/examples/`, as paths from the

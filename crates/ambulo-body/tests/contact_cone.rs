@@ -9,7 +9,7 @@ const FORCES: [[f64; 3]; 6] =
 fn the_projection_lies_in_the_cone_and_leaves_a_rest_in_its_polar() {
     for z in FORCES {
         for friction in [0.0, 0.3, 1.5] {
-            let [n, x, y] = project_onto_cone(z, friction).force;
+            let ([n, x, y], _) = project_onto_cone(z, friction);
             assert!(x.hypot(y) <= friction * n + 1e-15 && n >= 0.0);
             let rest = [z[0] - n, z[1] - x, z[2] - y];
             // Moreau: the rest is orthogonal to the projection and lies in the polar cone, μ |r_t| ≤ -r_n.
@@ -23,12 +23,12 @@ fn the_projection_lies_in_the_cone_and_leaves_a_rest_in_its_polar() {
 fn the_slope_is_that_of_differences() {
     let h = 1e-6;
     for z in FORCES {
-        let slope = project_onto_cone(z, 0.7).slope;
+        let (_, slope) = project_onto_cone(z, 0.7);
         for j in 0..3 {
             let (mut more, mut less) = (z, z);
             more[j] += h;
             less[j] -= h;
-            let (more, less) = (project_onto_cone(more, 0.7).force, project_onto_cone(less, 0.7).force);
+            let (more, less) = (project_onto_cone(more, 0.7).0, project_onto_cone(less, 0.7).0);
             for i in 0..3 {
                 assert!(((more[i] - less[i]) / (2.0 * h) - slope[i][j]).abs() < 1e-8, "{z:?} {i} {j}");
             }

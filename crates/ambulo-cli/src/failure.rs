@@ -63,17 +63,3 @@ impl From<ResultsError> for Failure {
         anyhow::Error::new(error).into()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_failure_has_the_file_and_the_line_of_its_message() {
-        let message = "walk.mot: line 12: found `x`; expected a number";
-        let failure = Failure::refused(message.to_owned()).in_one_of(["walk", "walk.mot", ""].into_iter());
-        assert_eq!((failure.file.as_deref(), failure.line), (Some("walk.mot"), Some(12)));
-        let failure = Failure::refused(message.to_owned()).in_one_of(["alk.mot"].into_iter());
-        assert_eq!((failure.file, failure.line), (None, None));
-    }
-}

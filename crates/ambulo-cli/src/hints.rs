@@ -2,6 +2,7 @@
 //!
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
+use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
@@ -55,7 +56,9 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
-    let options: Vec<&str> = fields.map(|field| option(*field)).collect();
+    let mut options: Vec<String> = fields.map(|field| option(*field).to_owned()).collect();
+    let wrong = error.chain().filter_map(|cause| cause.downcast_ref::<WrongFields>());
+    options.extend(wrong.flat_map(|wrong| wrong.fields).map(|field| format!("`--{}`", field.replace('_', "-"))));
     let options = (!options.is_empty()).then(|| options.join(", "));
     let hints: Vec<String> = of_cause.into_iter().chain(options).collect();
     (!hints.is_empty()).then(|| hints.join("; "))
@@ -208,29 +211,4 @@ fn of_results(error: &ResultsError) -> Option<&'static str> {
 
 fn of_comparison(error: &ComparisonError) -> Option<&'static str> {
     matches!(error, ComparisonError::NotFinite { .. }).then_some(RANGE)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo::analysis::AnalysisError;
-    use anyhow::Context;
-
-    /// Errors as the commands return them: wrapped by the analysis, with the file in front.
-    #[test]
-    fn an_error_has_the_hint_of_its_cause() {
-        let gap = || MotionError::Gap { column: "a".to_owned(), from_s: 0.0, to_s: 1.0, longest_s: 0.2 };
-        let of = |error: anyhow::Error| of_error(&error);
-        assert_eq!(of(gap().into()).as_deref(), Some(RANGE));
-        assert_eq!(of(AnalysisError::Motion(gap()).into()).as_deref(), Some(RANGE));
-        let of_run = StudyError::Analysis(AnalysisError::Motion(gap()));
-        assert_eq!(of(anyhow::Error::new(of_run).context("walk.mot")).as_deref(), Some(RANGE));
-        let named: anyhow::Result<()> = Err(AnalysisError::Ground(gap())).context("walk.mot");
-        assert_eq!(of(named.unwrap_err()).as_deref(), Some(RANGE));
-        let unit = SkeletonError::Unit { length: 3.0, units: "m".to_owned() };
-        assert!(of(unit.into()).is_some_and(|hint| hint.contains("--height")));
-        let no_feet = AnalysisError::Prediction(PredictError::NoFeet { model: "horse".to_owned() });
-        assert!(of(no_feet.into()).is_some_and(|hint| hint.contains("--no-ground")));
-        assert_eq!(of(SkeletonError::Up.into()), None);
-    }
 }

@@ -17,20 +17,24 @@ use std::path::{Component, Path, PathBuf};
 
 /// Which run wrote a folder, and the hashes of its files by name.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-pub(crate) struct Record {
-    pub(crate) run_id: String,
-    pub(crate) files: BTreeMap<String, String>,
+pub struct Record {
+    /// The id of the run.
+    pub run_id: String,
+    /// Hashes of its files by name.
+    pub files: BTreeMap<String, String>,
 }
 
 impl Record {
     /// The record in the content of a `summary.json`; `None` if Ambulo did not write one there.
-    pub(crate) fn from_summary(bytes: &[u8]) -> Option<Record> {
+    #[must_use]
+    pub fn from_summary(bytes: &[u8]) -> Option<Record> {
         let record: Record = serde_json::from_slice(bytes).ok()?;
         record.files.keys().all(|name| is_inside(name)).then_some(record)
     }
 
     /// The record of a folder; `None` if its summary is missing or has none.
-    pub(crate) fn of_folder(folder: &Path) -> Option<Record> {
+    #[must_use]
+    pub fn of_folder(folder: &Path) -> Option<Record> {
         Record::from_summary(&fs::read(folder.join(SUMMARY)).ok()?)
     }
 
@@ -83,7 +87,8 @@ pub(crate) fn run_id(options: &str, inputs: &[PathBuf], caller: &Caller) -> Resu
 }
 
 /// SHA-256 in hexadecimal digits.
-pub(crate) fn hash(bytes: &[u8]) -> String {
+#[must_use]
+pub fn hash(bytes: &[u8]) -> String {
     let mut hashed = Hashed::new(io::sink());
     hashed.hasher.update(bytes);
     hashed.hash()
@@ -137,23 +142,4 @@ pub(crate) fn short(hash: &str) -> String {
 /// Whether a name leads to a file inside the folder.
 pub(crate) fn is_inside(name: &str) -> bool {
     !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hash_is_the_sha_256_of_the_standard() {
-        assert_eq!(hash(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    }
-
-    #[test]
-    fn a_record_that_names_a_file_outside_of_its_folder_is_none() {
-        let of =
-            |name: &str| Record::from_summary(format!(r#"{{"run_id": "1", "files": {{"{name}": "2"}}}}"#).as_bytes());
-        assert!(of("figures/energy.svg").is_some());
-        assert_eq!([of("../mine.txt"), of("/etc/passwd"), of("")], [None, None, None]);
-        assert_eq!(Record::from_summary(b"{}"), None);
-    }
 }

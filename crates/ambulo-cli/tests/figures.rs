@@ -6,8 +6,7 @@ use crate::workbench::Workbench;
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
 use ambulo::numerics::correlation;
-use ambulo_report::clinical::{ClinicalNames, ClinicalQuantity, clinical_quantities};
-use ambulo_report::normative::band;
+use ambulo_report::internals::{ClinicalNames, ClinicalQuantity, band, clinical_quantities};
 use ambulo_results::Convention;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Result folders: all or nothing after a kill, on a full disk and with two runs at once; files of others stay;
 //! mixtures are refused.
 //!
-//! The unit tests of `replacement.rs` stop a run after every single change; here the program itself is killed.
+//! The tests of `replacement` stop a run after every single change; here the program itself is killed.
 
 use crate::workbench::Workbench;
 use std::collections::BTreeMap;

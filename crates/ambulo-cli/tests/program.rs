@@ -11,6 +11,7 @@ fn without_arguments_the_command_prints_a_guide() {
         "ambulo walk",
         "ambulo forces",
         "ambulo session",
+        "ambulo run",
         "ambulo stream",
         "ambulo simulate",
         "ambulo tune",
@@ -31,7 +32,7 @@ fn without_arguments_the_command_prints_a_guide() {
 fn the_help_of_every_command_has_an_example() {
     let bench = Workbench::empty("help");
     for verb in [
-        "demo", "walk", "forces", "session", "stream", "validate", "simulate", "tune", "report", "view", "info",
+        "demo", "walk", "forces", "run", "session", "stream", "validate", "simulate", "tune", "report", "view", "info",
         "convert", "events", "compare",
     ] {
         let run = bench.run(&[verb, "--help"]).done();

@@ -358,7 +358,7 @@ fn impossible_walks_are_rejected() {
         &["--gait", "found `moonwalk`", "standard, long, short, goose, parade, slow, free, fast"],
     );
     refused(&["--gait", "gose"], &["hint: did you mean `goose`?"]);
-    refused(&["--style", "2024"], &["--style: found `2024`; expected one of knots, 1997"]);
+    refused(&["--style", "2024"], &["style: found `2024`; expected one of knots, 1997", "`--style`"]);
     refused(&["--figure", "barbie"], &["--figure", "no figure is named `barbie`", "de-leva-male"]);
     refused(&["--cycles", "0"], &["found 0 cycles; expected 1 to 1000"]);
     for rate in ["0", "-100", "nan", "1e9"] {

@@ -81,7 +81,7 @@ fn a_file_is_read_with_segments_points_joints_and_frames() {
     assert_eq!(mvnx.joints[0].child, "RightUpperLeg/jRightHip");
     assert_eq!(mvnx.contacts, ["RightFoot_Heel", "RightFoot_Toe"], "in the order of their numbers");
     assert_eq!(mvnx.calibration.len(), 1);
-    assert_eq!(mvnx.calibration[0].kind, "tpose");
+    assert_eq!(mvnx.calibration[0].0, "tpose");
     let numbers: Vec<u64> = mvnx.frames.iter().map(|frame| frame.index).collect();
     assert_eq!(numbers, [0, 1, 3]);
     let pose = mvnx.frames[0].poses[1];

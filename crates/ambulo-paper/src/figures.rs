@@ -59,17 +59,41 @@ pub enum SeriesKind {
     Dots,
 }
 
-/// Figures 2 to 7 in the paper's mode, with a second row of panels or a second set of curves for the corrected mode.
-/// (Figure 1 is the figure of a walk: `report::gait_figure`.)
+/// The walks that figures are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FigureSet {
+    /// Those of the paper: files `figure3` to `figure7`.
+    Paper,
+    /// What was put right since: files `corrected_figure3` to `corrected_figure7`.
+    Corrected,
+}
+
+impl FigureSet {
+    /// The mode in words, as in legends.
+    fn words(self) -> &'static str {
+        match self {
+            FigureSet::Paper => "paper's mode",
+            FigureSet::Corrected => "corrected",
+        }
+    }
+
+    fn named(self, of_paper: &'static str, corrected: &'static str) -> &'static str {
+        match self {
+            FigureSet::Paper => of_paper,
+            FigureSet::Corrected => corrected,
+        }
+    }
+}
+
+/// Figures 3 to 7 with the walks of one mode.
 #[must_use]
-pub fn paper_figures(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<PaperFigure> {
+pub fn paper_figures(set: FigureSet, evidence: &Evidence) -> Vec<PaperFigure> {
     vec![
-        quintics(),
-        snapshots_figure(paper, corrected),
-        torques(paper, corrected),
-        vertical(paper, corrected),
-        masses(paper, corrected),
-        four_gaits(paper, corrected),
+        snapshots_figure(set, evidence),
+        torques(set, evidence),
+        vertical(set, evidence),
+        masses(set, evidence),
+        four_gaits(set, evidence),
     ]
 }
 
@@ -82,11 +106,6 @@ pub fn angular_laws() -> Option<PaperFigure> {
     let series = vec![curve("hip", |leg| leg.hip), curve("knee", |leg| leg.knee), curve("ankle", |leg| leg.ankle)];
     let panel = cycle_panel("right leg".into(), "flexion, dorsiflexion (deg)", series);
     Some(PaperFigure { name: "figure1", title: "Angular laws of the limbs".into(), panels: vec![panel] })
-}
-
-/// The available modes with their names.
-fn modes<'a>(paper: &'a Evidence, corrected: Option<&'a Evidence>) -> Vec<(&'static str, &'a Evidence)> {
-    std::iter::once(("paper's mode", paper)).chain(corrected.map(|evidence| ("corrected", evidence))).collect()
 }
 
 fn line(name: impl Into<String>, points: Vec<[f64; 2]>) -> PaperSeries {
@@ -103,7 +122,8 @@ fn cycle_panel(title: String, y_label: &'static str, series: Vec<PaperSeries>) -
 
 /// Figure 2: the knee angle by the quintics of the paper, their bounds, and the measured curve that the bounds are
 /// from.
-fn quintics() -> PaperFigure {
+#[must_use]
+pub fn quintics() -> PaperFigure {
     let (mut series, mut findings) = (Vec::new(), Findings::default());
     let standard = Gait::named("standard");
     for (style, name) in
@@ -149,18 +169,18 @@ fn knots(legs: &LegCurves, speed: f64) -> Vec<[f64; 2]> {
 }
 
 /// Figure 3: snapshots of a step.
-fn snapshots_figure(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
-    let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| PaperPanel {
-        title: name.to_owned(),
+fn snapshots_figure(set: FigureSet, evidence: &Evidence) -> PaperFigure {
+    let panel = PaperPanel {
+        title: set.words().to_owned(),
         x_label: "forward position (m), 0.55 m added between instants",
         y_label: "height (m)",
         to_scale: true,
         series: snapshots(evidence.standard()),
-    });
+    };
     PaperFigure {
-        name: "figure3",
+        name: set.named("figure3", "corrected_figure3"),
         title: "Snapshots of the motion during a step, standard gait".into(),
-        panels: panels.collect(),
+        panels: vec![panel],
     }
 }
 
@@ -216,24 +236,20 @@ pub(super) fn place(model: &Model, motions: &[BodyMotion], name: &str) -> Option
 }
 
 /// Figure 4: torques over a cycle at the paper's 30 Hz and at the finest rate.
-fn torques(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
+fn torques(set: FigureSet, evidence: &Evidence) -> PaperFigure {
     let joints = [
         ("hip (flexion +)", "hip_flexion_r"),
         ("knee (extension +)", "knee_angle_r"),
         ("ankle (dorsiflexion +)", "ankle_angle_r"),
     ];
     let panels = joints.map(|(title, coordinate)| {
-        let mut series = Vec::new();
-        for (rate, run) in [(RATES_HZ[0], 0), (RATES_HZ[RATES_HZ.len() - 1], RATES_HZ.len() - 1)] {
-            series.extend(
-                paper.rates.get(run).map(|run| line(format!("paper's mode, {rate:.0} Hz"), torque(run, coordinate))),
-            );
-        }
-        series.extend(corrected.map(|evidence| line("corrected", torque(evidence.standard(), coordinate))));
-        cycle_panel(title.into(), "torque (N.m)", series)
+        let last = RATES_HZ.len() - 1;
+        let of = |(run, rate): (&Run, f64)| line(format!("{}, {rate:.0} Hz", set.words()), torque(run, coordinate));
+        let both = [0, last].into_iter().filter_map(|k| evidence.rates.get(k).zip(RATES_HZ.get(k).copied()));
+        cycle_panel(title.into(), "torque (N.m)", both.map(of).collect())
     });
     PaperFigure {
-        name: "figure4",
+        name: set.named("figure4", "corrected_figure4"),
         title: "Torques at hip, knee and ankle over a cycle, standard gait, without impacts".into(),
         panels: panels.into(),
     }
@@ -245,7 +261,7 @@ fn torque(run: &Run, coordinate: &str) -> Vec<[f64; 2]> {
 }
 
 /// Figure 5: the vertical force during stance, measured and computed.
-fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
+fn vertical(set: FigureSet, evidence: &Evidence) -> PaperFigure {
     let weight = MASS * ambulo_walk::gait::GRAVITY;
     let stances = |scale: f64, of: &dyn Fn(f64) -> f64| {
         (0..POINTS)
@@ -260,7 +276,8 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
             (mean + sign * deviation).max(0.0)
         }),
     };
-    let measured = line("Schwartz 2008, mean; thin lines: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
+    let measured =
+        line("children (Schwartz 2008), scaled; thin: ± SD", stances(weight, &|at| measured_vertical(at)[0]));
     let panel = |title: &str, series| PaperPanel {
         title: title.to_owned(),
         x_label: "stance (%)",
@@ -269,51 +286,37 @@ fn vertical(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
         series,
     };
     let faint = PaperSeries { name: "measured".into(), kind: SeriesKind::Faint, points: measured.points.clone() };
-    let computed = modes(paper, corrected).into_iter().filter_map(|(name, evidence)| {
-        let (curve, _) = stance(evidence.standard())?;
-        Some(line(name, stances(weight, &|at| curve[(at * (POINTS - 1) as f64).round() as usize])))
-    });
-    let computed = computed.chain([faint]);
+    let at_percent = |curve: &[f64], at: f64| curve[(at * (POINTS - 1) as f64).round() as usize];
+    let computed =
+        stance(evidence.standard()).map(|(curve, _)| line(set.words(), stances(weight, &|at| at_percent(&curve, at))));
     PaperFigure {
-        name: "figure5",
+        name: set.named("figure5", "corrected_figure5"),
         title: "Action on the ground during stance: measured (a) and computed (b), 80 kg".into(),
         panels: vec![
-            panel("(a) measured, children, scaled to 80 kg", vec![measured, band(1.0), band(-1.0)]),
-            panel("(b) computed", computed.collect()),
+            panel("(a) measured", vec![measured, band(1.0), band(-1.0)]),
+            panel("(b) computed", computed.into_iter().chain([faint]).collect()),
         ],
     }
 }
 
 /// Figure 6: the hip torque for three masses.
-fn masses(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
-    let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| {
-        let of = |(run, mass): (&Run, f64)| line(format!("{mass:.0} kg"), torque(run, "hip_flexion_r"));
-        cycle_panel(
-            name.to_owned(),
-            "hip torque (N.m), flexion +",
-            evidence.masses.iter().zip(MASSES).map(of).collect(),
-        )
-    });
+fn masses(set: FigureSet, evidence: &Evidence) -> PaperFigure {
+    let of = |(run, mass): (&Run, f64)| line(format!("{mass:.0} kg"), torque(run, "hip_flexion_r"));
+    let series = evidence.masses.iter().zip(MASSES).map(of).collect();
     PaperFigure {
-        name: "figure6",
+        name: set.named("figure6", "corrected_figure6"),
         title: "Influence of the mass of the figure on the hip torque".into(),
-        panels: panels.collect(),
+        panels: vec![cycle_panel(set.words().to_owned(), "hip torque (N.m), flexion +", series)],
     }
 }
 
 /// Figure 7: the knee torque in four gaits, each over its own cycle.
-fn four_gaits(paper: &Evidence, corrected: Option<&Evidence>) -> PaperFigure {
-    let panels = modes(paper, corrected).into_iter().map(|(name, evidence)| {
-        let of = |(run, gait): (&Run, &str)| line(gait, torque(run, "knee_angle_r"));
-        cycle_panel(
-            name.to_owned(),
-            "knee torque (N.m), extension +",
-            evidence.gaits.iter().zip(GAITS).map(of).collect(),
-        )
-    });
+fn four_gaits(set: FigureSet, evidence: &Evidence) -> PaperFigure {
+    let of = |(run, gait): (&Run, &str)| line(gait, torque(run, "knee_angle_r"));
+    let series = evidence.gaits.iter().zip(GAITS).map(of).collect();
     PaperFigure {
-        name: "figure7",
+        name: set.named("figure7", "corrected_figure7"),
         title: "Comparison of gaits: the knee torque after time scaling".into(),
-        panels: panels.collect(),
+        panels: vec![cycle_panel(set.words().to_owned(), "knee torque (N.m), extension +", series)],
     }
 }

@@ -47,7 +47,7 @@ pub use evidence::{
     BRIEF_CYCLES, CYCLES, Evidence, FRICTION, FRICTIONS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
 };
 pub use experiments::add_experiments;
-pub use figures::{PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures};
+pub use figures::{FigureSet, PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures, quintics};
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::torque_series;
 pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk_with};

@@ -29,6 +29,8 @@ pub struct MovingFigure {
     pub head: Option<MovingHead>,
     /// Distance that the figure has advanced at each instant [m]; the last instant is the first of the next cycle.
     pub advance: Vec<f64>,
+    /// Forward speed of the hips at each instant [m/s].
+    pub speed: Vec<f64>,
 }
 
 /// The head at each instant: a circle from the neck to the vertex.
@@ -61,6 +63,7 @@ pub fn moving_figure(run: &Run) -> Option<MovingFigure> {
     let mut sticks: Vec<MovingStick> =
         TRUNK_AND_LIMBS.iter().map(|(_, kind)| MovingStick { kind: *kind, points: Vec::new() }).collect();
     let (mut advance, mut heads) = (Vec::new(), Vec::new());
+    let speed = (0..=FRAMES).map(|instant| recording.speed()[row(instant)]).collect();
     for instant in 0..=FRAMES {
         let motions = at_row(run, row(instant));
         let hips = motions.first()?.pose.translation.x;
@@ -78,7 +81,7 @@ pub fn moving_figure(run: &Run) -> Option<MovingFigure> {
     let head = heads
         .first()
         .map(|(_, radius)| MovingHead { radius: *radius, centres: heads.iter().map(|(centre, _)| *centre).collect() });
-    Some(MovingFigure { gait: run.gait.clone(), cycle_s: run.cycle_s, sticks, head, advance })
+    Some(MovingFigure { gait: run.gait.clone(), cycle_s: run.cycle_s, sticks, head, advance, speed })
 }
 
 /// Centre and radius of a head between neck and vertex, relative to the hips [m].

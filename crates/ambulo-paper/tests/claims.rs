@@ -1,8 +1,9 @@
 //! The claims of the paper: results of its mode, agreement with the documentation, and judgements that fail.
 
 use ambulo_paper::{
-    Claim, ClaimKind, Evidence, GAITS, Scope, Setting, Steady, TrialSettings, angular_laws, assumptions, claims,
-    former_tally, measured_vertical, muscle_table, number, paper_figures, paper_walk, tally, torque_series,
+    Claim, ClaimKind, Evidence, FigureSet, GAITS, Scope, Setting, Steady, TrialSettings, angular_laws, assumptions,
+    claims, former_tally, measured_vertical, muscle_table, number, paper_figures, paper_walk, quintics, tally,
+    torque_series,
 };
 use std::sync::LazyLock;
 
@@ -183,15 +184,16 @@ fn the_corrected_mode_is_reported_with_the_paper_s() {
 #[test]
 fn figures_and_tables_agree_with_the_walks() {
     assert_eq!(angular_laws().unwrap().panels[0].series.len(), 3);
-    let figures = paper_figures(&EVIDENCE, None);
-    assert_eq!(
-        figures.iter().map(|figure| figure.name).collect::<Vec<_>>(),
-        ["figure2", "figure3", "figure4", "figure5", "figure6", "figure7"]
-    );
-    for series in figures.iter().flat_map(|figure| &figure.panels).flat_map(|panel| &panel.series) {
+    let names = |set| paper_figures(set, &EVIDENCE).iter().map(|figure| figure.name).collect::<Vec<_>>();
+    assert_eq!(names(FigureSet::Paper), ["figure3", "figure4", "figure5", "figure6", "figure7"]);
+    let corrected = names(FigureSet::Corrected);
+    assert!(corrected.iter().zip(names(FigureSet::Paper)).all(|(name, of)| *name == format!("corrected_{of}")));
+    let figures = paper_figures(FigureSet::Paper, &EVIDENCE);
+    for series in figures.iter().chain(&[quintics()]).flat_map(|figure| &figure.panels).flat_map(|panel| &panel.series)
+    {
         assert!(series.points.len() >= 3 && series.points.iter().flatten().all(|x| x.is_finite()), "{}", series.name);
     }
-    assert_eq!(figures[5].panels[0].series.len(), GAITS.len());
+    assert_eq!(figures[4].panels[0].series.len(), GAITS.len());
     // Work of the joints over a cycle, from the table and from the rows.
     let run = EVIDENCE.standard();
     let steady = Steady::of(run).unwrap();

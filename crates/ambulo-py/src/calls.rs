@@ -1,11 +1,10 @@
-//! The verbs of the command as functions. A recording is computed by a job; defaults, checks and messages are those of
-//! the command.
+//! The verbs of the command as functions: requests, whose defaults, checks and messages are those of the command.
 
 use crate::failure::exception;
-use crate::request::{self, Request};
+use crate::request::{Given, typed};
 use crate::results::Results;
-use ambulo::study::GroundSettings;
-use ambulo_cli::{Caller, Failure};
+use ambulo_cli::{Answer, CalibrateRequest, Caller, Existing, ForcesRequest, Outputs, Request};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -40,9 +39,10 @@ pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
 
 /// The forces of a recording: options by their names.
 #[pyfunction]
-pub(crate) fn forces(py: Python<'_>, options: &Bound<'_, PyDict>, files: Files) -> PyResult<Results> {
-    let Request { job, outputs } = Request::of(options)?;
-    computed(py, &files, move |caller| ambulo_cli::forces(&job, outputs, caller)).map(Results)
+pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: Files) -> PyResult<Bound<'py, PyAny>> {
+    let Given { job, outputs } = Given::of(options)?;
+    let Outputs { convention, keep } = outputs;
+    answered(py, ForcesRequest { job, convention, keep, ..ForcesRequest::default() }, Existing::Kept, &files)
 }
 
 /// The calibration of a person: the content of the file of `ambulo calibrate`. The options are those of every trial.
@@ -52,65 +52,28 @@ pub(crate) fn calibrate<'py>(
     trials: Vec<PathBuf>,
     options: &Bound<'py, PyDict>,
     files: Files,
-) -> PyResult<Bound<'py, PyBytes>> {
-    let Request { mut job, .. } = Request::of(options)?;
-    job.settings.ground = GroundSettings::Predicted;
-    let bytes = computed(py, &files, move |caller| ambulo_cli::calibrate(&trials, &job, caller))?;
-    Ok(PyBytes::new(py, &bytes))
+) -> PyResult<Bound<'py, PyAny>> {
+    let Given { job, .. } = Given::of(options)?;
+    answered(py, CalibrateRequest::of(trials, job), Existing::Kept, &files)
 }
 
-/// `ambulo batch` with its own options, and those of every trial: the folder of its tables.
+/// A request: a dictionary with the verb as its only key (docs/REQUESTS.md), where None leaves a field out. `of_all`
+/// has the options of every trial of a batch or session by their names; `force` also replaces files that no run wrote.
 #[pyfunction]
-pub(crate) fn batch(
-    py: Python<'_>,
-    source: PathBuf,
-    named: &Bound<'_, PyDict>,
-    of_all: &Bound<'_, PyDict>,
-) -> PyResult<PathBuf> {
-    let options = request::options(vec![source], named)?;
-    let Request { job, outputs } = Request::of_all(of_all)?;
-    computed(py, &[], move |caller| ambulo_cli::batch(&options, job, outputs, caller))
-}
-
-/// `ambulo session` with its own options, and those of every trial: the results in its folder.
-#[pyfunction]
-pub(crate) fn session(
-    py: Python<'_>,
-    source: Vec<PathBuf>,
-    named: &Bound<'_, PyDict>,
-    of_all: &Bound<'_, PyDict>,
-) -> PyResult<Results> {
-    let options = request::options(source, named)?;
-    let Request { job, outputs } = Request::of_all(of_all)?;
-    computed(py, &[], move |caller| ambulo_cli::session(&options, job, outputs, caller)).map(Results)
-}
-
-/// `ambulo validate` of a folder.
-#[pyfunction]
-pub(crate) fn validate(py: Python<'_>, folder: PathBuf, named: &Bound<'_, PyDict>) -> PyResult<Results> {
-    let options = request::options(vec![folder], named)?;
-    computed(py, &[], move |caller| ambulo_cli::validate(&options, caller)).map(Results)
-}
-
-/// `ambulo walk`.
-#[pyfunction]
-pub(crate) fn walk(py: Python<'_>, named: &Bound<'_, PyDict>) -> PyResult<Results> {
-    let options = request::options(Vec::new(), named)?;
-    computed(py, &[], move |caller| ambulo_cli::walk(&options, caller)).map(Results)
-}
-
-/// `ambulo simulate` of a scene.
-#[pyfunction]
-pub(crate) fn simulate(py: Python<'_>, scene: PathBuf, named: &Bound<'_, PyDict>, files: Files) -> PyResult<Results> {
-    let options = request::options(vec![scene], named)?;
-    computed(py, &files, move |caller| ambulo_cli::simulate(&options, caller)).map(Results)
-}
-
-/// `ambulo sweep`.
-#[pyfunction]
-pub(crate) fn sweep(py: Python<'_>, named: &Bound<'_, PyDict>) -> PyResult<Results> {
-    let options = request::options(Vec::new(), named)?;
-    computed(py, &[], move |caller| ambulo_cli::sweep(&options, caller)).map(Results)
+#[pyo3(signature = (request, files=Vec::new(), of_all=None, force=false))]
+pub(crate) fn run<'py>(
+    py: Python<'py>,
+    request: &Bound<'py, PyDict>,
+    files: Files,
+    of_all: Option<&Bound<'py, PyDict>>,
+    force: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut request = typed(request)?;
+    if let Some(options) = of_all {
+        let Given { job, outputs } = Given::of_all(options)?;
+        request = request.with_trials(job, &outputs);
+    }
+    answered(py, request, if force { Existing::Replaced } else { Existing::Kept }, &files)
 }
 
 /// Opens a result folder.
@@ -119,16 +82,23 @@ pub(crate) fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Results> {
     py.detach(|| ambulo_cli::open(&folder)).map(Results).map_err(|failure| exception(py, failure))
 }
 
-fn computed<T: Send + 'static>(
-    py: Python<'_>,
+/// What a request computes.
+fn answered<'py>(
+    py: Python<'py>,
+    request: impl Into<Request>,
+    existing: Existing,
     files: &[(PathBuf, PyBackedBytes)],
-    verb: impl FnOnce(&Caller) -> Result<T, Failure> + Send + 'static,
-) -> PyResult<T> {
+) -> PyResult<Bound<'py, PyAny>> {
+    let request: Request = request.into();
     let stop = Arc::new(AtomicBool::new(false));
     let files = files.iter().map(|(name, content)| (name.clone(), Arc::from(&content[..]))).collect();
     let caller = Caller { files, stop: Arc::clone(&stop) };
-    let computed = interruptible(py, stop, move || verb(&caller))?;
-    computed.map_err(|failure| exception(py, failure))
+    let computed = interruptible(py, stop, move || request.compute(existing, &caller))?;
+    match computed.map_err(|failure| exception(py, failure))? {
+        Answer::Results(results) => Ok(Bound::new(py, Results(*results))?.into_any()),
+        Answer::Folder(folder) => folder.into_bound_py_any(py),
+        Answer::Person(bytes) => Ok(PyBytes::new(py, &bytes).into_any()),
+    }
 }
 
 /// Computes in a separate thread, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the

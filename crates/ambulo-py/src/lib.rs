@@ -17,7 +17,7 @@ mod _ambulo {
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]
-    use super::calls::{batch, calibrate, command, forces, open, session, simulate, sweep, validate, version, walk};
+    use super::calls::{calibrate, command, forces, open, run, version};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

@@ -1,37 +1,38 @@
-//! Options of `ambulo.forces` as a job, and options of the other verbs by their names.
+//! Options of `ambulo.forces` as a job, and dictionaries as requests of the other verbs.
 
-use crate::failure::refused;
+use crate::failure::{exception, refused};
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
 use ambulo::study::GroundSettings;
-use ambulo_cli::{Options, Outputs};
+use ambulo_cli::{Outputs, Request};
 use ambulo_results::{Convention, Keep};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use serde_json::{Number, Value};
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 /// A job, and what is written of its results.
 #[derive(Default)]
-pub(crate) struct Request {
+pub(crate) struct Given {
     pub(crate) job: Job,
     pub(crate) outputs: Outputs,
 }
 
 /// An option: its name and its value, which is not None.
-struct Given<'a, 'py> {
+struct Named<'a, 'py> {
     name: &'a str,
     value: &'a Bound<'py, PyAny>,
 }
 
-impl Request {
+impl Given {
     /// From options by their names in Python. None and the defaults of Python are left out.
-    pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Request> {
-        let mut request = Request::default();
+    pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Given> {
+        let mut request = Given::default();
         for (name, value) in options {
             let name: String = name.extract()?;
-            let given = Given { name: &name, value: &value };
+            let given = Named { name: &name, value: &value };
             let is_known = value.is_none()
                 || request.take_file(&given)?
                 || request.take_statement(&given)?
@@ -44,18 +45,18 @@ impl Request {
     }
 
     /// The options of every trial of a folder, whose outputs are chosen by the verb.
-    pub(crate) fn of_all(options: &Bound<'_, PyDict>) -> PyResult<Request> {
+    pub(crate) fn of_all(options: &Bound<'_, PyDict>) -> PyResult<Given> {
         match options.get_item("keep")?.filter(|keep| !keep.is_none()) {
             Some(_) => Err(refused(
                 options.py(),
                 "keep: trials have no folders of their own; expected it beside `options`".into(),
             )),
-            None => Request::of(options),
+            None => Given::of(options),
         }
     }
 
     /// Takes the option if its value is a file.
-    fn take_file(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+    fn take_file(&mut self, given: &Named<'_, '_>) -> PyResult<bool> {
         let job = &mut self.job;
         let place = match given.name {
             "model" => {
@@ -82,7 +83,7 @@ impl Request {
     }
 
     /// Takes the option if it states something about the person or the laboratory.
-    fn take_statement(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+    fn take_statement(&mut self, given: &Named<'_, '_>) -> PyResult<bool> {
         let job = &mut self.job;
         match given.name {
             "mass" => job.size.mass_kg = Some(given.number()?),
@@ -111,7 +112,7 @@ impl Request {
     }
 
     /// Takes the option if it chooses how the recording is processed.
-    fn take_setting(&mut self, given: &Given<'_, '_>) -> PyResult<bool> {
+    fn take_setting(&mut self, given: &Named<'_, '_>) -> PyResult<bool> {
         let settings = &mut self.job.settings;
         match given.name {
             "predict" => return self.take_ground(given, GroundSettings::Predicted, given.switch()?),
@@ -139,7 +140,7 @@ impl Request {
             }
             "keep" => {
                 let known = Keep::OF_RUNS.map(|name| (name, name));
-                let name = |given: Given<'_, '_>| given.one_of(&known).map(str::to_owned);
+                let name = |given: Named<'_, '_>| given.one_of(&known).map(str::to_owned);
                 self.outputs.keep = given.list()?.iter().map(name).collect::<PyResult<_>>()?;
             }
             _ => return Ok(false),
@@ -147,7 +148,7 @@ impl Request {
         Ok(true)
     }
 
-    fn take_ground(&mut self, given: &Given<'_, '_>, ground: GroundSettings, is_chosen: bool) -> PyResult<bool> {
+    fn take_ground(&mut self, given: &Named<'_, '_>, ground: GroundSettings, is_chosen: bool) -> PyResult<bool> {
         let chosen = &mut self.job.settings.ground;
         if is_chosen && *chosen != GroundSettings::default() {
             return Err(given.refused("predict, track and ground=False exclude each other"));
@@ -159,7 +160,7 @@ impl Request {
     }
 }
 
-impl Given<'_, '_> {
+impl Named<'_, '_> {
     fn refused(&self, what: impl Display) -> PyErr {
         refused(self.value.py(), format!("{}: {what}", self.name))
     }
@@ -198,7 +199,7 @@ impl Given<'_, '_> {
     }
 }
 
-impl<'a, 'py> Given<'a, 'py> {
+impl<'a, 'py> Named<'a, 'py> {
     /// The items of a sequence; a value that is no list or tuple is the only one.
     fn list(&self) -> PyResult<Items<'a, 'py>> {
         let is_list = self.value.is_instance_of::<PyList>() || self.value.is_instance_of::<PyTuple>();
@@ -217,24 +218,45 @@ struct Items<'a, 'py> {
 }
 
 impl<'py> Items<'_, 'py> {
-    fn iter(&self) -> impl Iterator<Item = Given<'_, 'py>> {
-        self.items.iter().map(|value| Given { name: self.name, value })
+    fn iter(&self) -> impl Iterator<Item = Named<'_, 'py>> {
+        self.items.iter().map(|value| Named { name: self.name, value })
     }
 }
 
-/// Options of another verb by their names: True is a switch, a list repeats an option, None and False leave it out.
-pub(crate) fn options(inputs: Vec<PathBuf>, named: &Bound<'_, PyDict>) -> PyResult<Options> {
-    let mut options = Options { inputs, named: Vec::new() };
-    for (name, value) in named {
-        let name: String = name.extract()?;
-        for given in (Given { name: &name, value: &value }).list()?.iter() {
-            match given.value.cast::<PyBool>() {
-                Ok(switch) if switch.is_true() => options.named.push((name.clone(), None)),
-                Ok(_) => {}
-                Err(_) if given.value.is_none() => {}
-                Err(_) => options.named.push((name.clone(), Some(given.text()?))),
-            }
-        }
+/// The request that a dictionary describes, as docs/REQUESTS.md; None leaves a field out.
+pub(crate) fn typed(request: &Bound<'_, PyDict>) -> PyResult<Request> {
+    Request::of_value(&json(request)?).map_err(|failure| exception(request.py(), failure))
+}
+
+/// A value as JSON: paths are text, numbers may be those of NumPy.
+fn json(value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if let Ok(fields) = value.cast::<PyDict>() {
+        let fields = fields.iter().filter(|(_, value)| !value.is_none());
+        return fields.map(|(name, value)| Ok((name.extract::<String>()?, json(&value)?))).collect();
     }
-    Ok(options)
+    if let Ok(switch) = value.cast::<PyBool>() {
+        return Ok(switch.is_true().into());
+    }
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        return value.try_iter()?.map(|item| json(&item?)).collect();
+    }
+    match value.extract::<i64>() {
+        Ok(whole) => Ok(whole.into()),
+        Err(_) if value.is_instance_of::<PyString>() => text(value),
+        Err(_) => value.extract::<f64>().map_or_else(|_| text(value), |number| finite(value, number)),
+    }
+}
+
+fn finite(value: &Bound<'_, PyAny>, number: f64) -> PyResult<Value> {
+    let number = Number::from_f64(number);
+    number.map(Value::Number).ok_or_else(|| refused(value.py(), format!("found {value}; expected a finite number")))
+}
+
+/// Text or a path.
+fn text(value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let path: PathBuf = value.extract()?;
+    path.into_os_string()
+        .into_string()
+        .map(Value::String)
+        .map_err(|path| refused(value.py(), format!("found the path {}; expected letters of Unicode", path.display())))
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 import pickle
 import re
 
@@ -53,6 +54,48 @@ def test_every_argument_of_forces_is_read():
     source = (PACKAGE / "src/request.rs").read_text()
     arms = set(re.findall(r'^ +"(\w+)" =>', source, re.MULTILINE))
     assert arms == set(inspect.signature(ambulo.forces).parameters)
+
+
+def fields(schema, definition):
+    """The fields of a type of requests; those of an object in it are named `outer.inner`."""
+    for name, field in definition["properties"].items():
+        inner = schema["$defs"].get(field.get("$ref", "").removeprefix("#/$defs/"), {})
+        if "properties" in inner:
+            yield from (f"{name}.{field}" for field in fields(schema, inner))
+        else:
+            yield name
+
+
+def stated(request):
+    """The fields of a request, named as those of its type."""
+    for name, value in request.items():
+        if isinstance(value, dict):
+            yield from (f"{name}.{field}" for field in stated(value))
+        else:
+            yield name
+
+
+@pytest.mark.parametrize("verb", ["validate", "batch", "session", "walk", "simulate", "sweep"])
+def test_every_field_of_a_request_is_stated(verb, monkeypatch):
+    class Stated(Exception):  # noqa: N818
+        pass
+
+    def run(request, *_args, **_named):
+        raise Stated(request)
+
+    monkeypatch.setattr(ambulo._calls._ambulo, "run", run)
+    required = {"validate": ["."], "batch": [".", "out"], "session": [".", "out"], "simulate": ["scene.toml"]}
+    with pytest.raises(Stated) as caught:
+        VERBS[verb](*required.get(verb, []))
+    request = caught.value.args[0]
+    schema = json.loads((REPOSITORY / "docs/request.schema.json").read_text())
+    definition = next(choice["properties"][verb] for choice in schema["oneOf"] if verb in choice["properties"])
+    own = set(fields(schema, schema["$defs"][definition["$ref"].removeprefix("#/$defs/")]))
+    # The options of every trial are those of `forces`.
+    own = {name for name in own if not name.startswith("job.") and (verb == "walk" or name != "convention")}
+    found = set(stated(request[verb]))
+    assert found <= own
+    assert {name for name in own - found if name.split(".")[-1] not in OF_COMMANDS} == set()
 
 
 @pytest.mark.parametrize("name", [name for name in ambulo.__all__ if inspect.isfunction(getattr(ambulo, name))])

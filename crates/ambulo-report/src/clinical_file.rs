@@ -159,9 +159,9 @@ pub(crate) fn clinical_angle(angles: &ClinicalAngles, quantity_id: &str, side: S
         "pelvis_tilt_angle" => (&angles.pelvic_tilt, 1.0),
         "pelvis_obliquity_angle" => (&angles.pelvic_obliquity, own),
         "pelvis_rotation_angle" => (&angles.pelvic_rotation, own),
-        "hip_flexion_angle" => (&hip()?.flexion, 1.0),
-        "hip_adduction_angle" => (&hip()?.adduction, 1.0),
-        "hip_rotation_angle" => (&hip()?.rotation, 1.0),
+        "hip_flexion_angle" => (&hip()?[0], 1.0),
+        "hip_adduction_angle" => (&hip()?[1], 1.0),
+        "hip_rotation_angle" => (&hip()?[2], 1.0),
         _ => return None,
     };
     Some(values.iter().map(|x| sign * x.to_degrees()).collect())

@@ -40,7 +40,8 @@ impl Document<'_> {
 }
 
 /// Escapes text for content and for attributes in double quotes.
-pub(super) fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -88,14 +89,4 @@ pub(super) fn html_table(section: &Section) -> String {
         let _ = writeln!(html, "<p class=\"soft\">{}</p>", code(note));
     }
     html
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn no_text_becomes_markup() {
-        assert_eq!(escaped(r#"<script>"a" & b</script>"#), "&lt;script&gt;&quot;a&quot; &amp; b&lt;/script&gt;");
-    }
 }

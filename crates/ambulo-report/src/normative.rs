@@ -153,10 +153,13 @@ pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: 
 }
 
 /// Rows of the file, one per speed.
+#[doc(hidden)] // for tests
 #[derive(Debug, Clone)]
-struct Curves {
-    mean: [[f64; BAND_SAMPLES]; SPEEDS],
-    sd: [[f64; BAND_SAMPLES]; SPEEDS],
+pub struct Curves {
+    /// Means.
+    pub mean: [[f64; BAND_SAMPLES]; SPEEDS],
+    /// Standard deviations.
+    pub sd: [[f64; BAND_SAMPLES]; SPEEDS],
 }
 
 /// Shares of the cycle, and dimensionless cadence.
@@ -169,11 +172,14 @@ struct Times {
     double_support_sd: [f64; SPEEDS],
 }
 
+/// The normative data of all speeds.
+#[doc(hidden)] // for tests
 #[derive(Debug, Clone)]
-struct Bands {
+pub struct Bands {
     speeds: [f64; SPEEDS],
     times: Times,
-    curves: Vec<(&'static str, Curves)>,
+    /// Quantities with their curves.
+    pub curves: Vec<(&'static str, Curves)>,
 }
 
 /// A speed between two speeds of the table: the lower one, and the fraction of the way to the upper one.
@@ -228,16 +234,18 @@ impl Bands {
     }
 
     /// Reads the two files.
-    fn read(times: &str, curves: &str) -> Result<Bands, String> {
+    ///
+    /// # Errors
+    /// Lines that are not understood, and missing curves.
+    pub fn read(times: &str, curves: &str) -> Result<Bands, String> {
         let TimesFile { speeds, time: times } = toml::from_str(times).map_err(|e| e.to_string())?;
         let unknown = [[f64::NAN; BAND_SAMPLES]; SPEEDS];
         let mut read: Vec<(&'static str, Curves)> =
             MEASURED.iter().map(|name| (*name, Curves { mean: unknown, sd: unknown })).collect();
         for line in curves.lines().skip(1) {
-            let (place, numbers) = curve(line, &speeds).ok_or_else(|| {
+            let ((quantity, is_sd, speed), numbers) = curve(line, &speeds).ok_or_else(|| {
                 format!("found the line `{line}`; expected quantity, mean or sd, speed, {BAND_SAMPLES} numbers")
             })?;
-            let CurvePlace { quantity, is_sd, speed } = place;
             let Curves { mean, sd } = &mut read[quantity].1;
             *(if is_sd { &mut sd[speed] } else { &mut mean[speed] }) = numbers;
         }
@@ -256,16 +264,9 @@ struct TimesFile {
     time: Times,
 }
 
-/// Which curve a line of `schwartz2008_curves.csv` has.
-struct CurvePlace {
-    /// Place in [`MEASURED`].
-    quantity: usize,
-    is_sd: bool,
-    /// Place among the speeds.
-    speed: usize,
-}
-
-fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_SAMPLES])> {
+/// The numbers of a line of `schwartz2008_curves.csv`, and which curve they are: place in [`MEASURED`], whether it is
+/// the standard deviation, and place among the speeds.
+fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<((usize, bool, usize), [f64; BAND_SAMPLES])> {
     let mut cells = line.split(',');
     let name = cells.next()?;
     let quantity = MEASURED.iter().position(|known| *known == name)?;
@@ -277,27 +278,5 @@ fn curve(line: &str, speeds: &[f64; SPEEDS]) -> Option<(CurvePlace, [f64; BAND_S
     let speed = cells.next()?.parse::<f64>().ok()?;
     let speed = speeds.iter().position(|known| known.to_bits() == speed.to_bits())?;
     let numbers: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>().ok()?;
-    Some((CurvePlace { quantity, is_sd, speed }, numbers.try_into().ok()?))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_curve_is_read_to_its_place_and_a_missing_or_short_one_is_named() {
-        let bands = Bands::read(TIMES, CURVES).unwrap();
-        let of = |name: &str| bands.curves.iter().find(|(known, _)| *known == name).map(|(_, curves)| curves).unwrap();
-        // The first and the last line of the file, and means and deviations that differ.
-        assert_eq!((of("pelvis_tilt_angle").mean[0][0], of("pelvis_tilt_angle").sd[0][0]), (11.8, 5.15));
-        let last: Vec<&str> = CURVES.lines().last().unwrap().split(',').collect();
-        assert_eq!(last[..3], ["ground_force_fore_aft", "sd", "0.694"]);
-        assert_eq!(of("ground_force_fore_aft").sd[4][50].to_string(), last[53]);
-        let without =
-            CURVES.lines().filter(|line| !line.starts_with("knee_flexion_moment,sd,0.429")).collect::<Vec<_>>();
-        assert!(Bands::read(TIMES, &without.join("\n")).unwrap_err().contains("no `knee_flexion_moment`"));
-        let line = CURVES.lines().nth(1).unwrap();
-        let (short, _) = line.rsplit_once(',').unwrap();
-        assert!(Bands::read(TIMES, &CURVES.replacen(line, short, 1)).unwrap_err().contains(short));
-    }
+    Some(((quantity, is_sd, speed), numbers.try_into().ok()?))
 }

@@ -5,8 +5,8 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk};
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo_paper::{
-    Claim, Evidence, GAITS, PaperFigure, Sensitivity, Setting, angular_laws, assumptions, muscle_table, paper_figures,
-    paper_human, torque_series,
+    Claim, Evidence, FigureSet, GAITS, PaperFigure, Sensitivity, Setting, angular_laws, assumptions, muscle_table,
+    paper_figures, paper_human, quintics, torque_series,
 };
 use ambulo_results::OutputFile;
 use std::fmt::Write;
@@ -27,7 +27,9 @@ pub fn reproduction_files(
     if let Some(svg) = first_figure()? {
         files.push(file("figures/figure1.svg".into(), svg));
     }
-    let figures = paper_figures(paper, corrected);
+    let of_paper = paper_figures(FigureSet::Paper, paper);
+    let of_corrected = corrected.map(|evidence| paper_figures(FigureSet::Corrected, evidence)).unwrap_or_default();
+    let figures: Vec<PaperFigure> = [quintics()].into_iter().chain(of_paper).chain(of_corrected).collect();
     for figure in &figures {
         files.push(file(format!("figures/{}.svg", figure.name), paper_figure(figure)?));
     }

@@ -125,19 +125,3 @@ pub fn style() -> Result<&'static Style, &'static serde_json::Error> {
     static READ: LazyLock<Result<Style, serde_json::Error>> = LazyLock::new(|| serde_json::from_str(STYLE));
     READ.as_ref()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_style_is_read_and_tells_the_sides_apart_without_colour() {
-        let style = style().unwrap();
-        assert!(style.right.dash.is_empty() && !style.left.dash.is_empty());
-        assert!(style.widths_mm.one_column < style.widths_mm.two_columns);
-        let colors = [&style.right.color, &style.left.color, &style.infeasible.color, &style.band.color];
-        for color in colors {
-            assert!(color.len() == 7 && color.starts_with('#'), "{color}");
-        }
-    }
-}

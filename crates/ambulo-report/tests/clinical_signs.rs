@@ -3,7 +3,7 @@
 
 use ambulo::findings::Findings;
 use ambulo::model::{Model, Side};
-use ambulo_report::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
+use ambulo_report::internals::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use std::collections::BTreeSet;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");

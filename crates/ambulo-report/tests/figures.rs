@@ -2,7 +2,7 @@
 
 use crate::svg_reader::{Figure, Line};
 use ambulo::model::Side;
-use ambulo_report::clinical::ClinicalNames;
+use ambulo_report::internals::ClinicalNames;
 use ambulo_report::{CycleFigures, Mark};
 use ambulo_results::Convention;
 use ambulo_results::CycleRow;

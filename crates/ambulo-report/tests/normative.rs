@@ -1,9 +1,12 @@
 //! Normative bands: values of the source, interpolated between its speeds, with the signs of the panels.
 
-use ambulo_report::clinical::{ClinicalNames, clinical_quantities};
-use ambulo_report::normative::{BAND_SAMPLES, NormalRange, band, dimensionless_speed, time_distance};
+use ambulo_report::internals::{
+    BAND_SAMPLES, Bands, ClinicalNames, NormalRange, band, clinical_quantities, dimensionless_speed, time_distance,
+};
 use ambulo_results::Convention;
 
+const TIMES: &str = include_str!("../data/normative/schwartz2008.toml");
+const CURVES: &str = include_str!("../data/normative/schwartz2008_curves.csv");
 /// Dimensionless speeds that were measured.
 const SPEEDS: [f64; 5] = [0.172, 0.290, 0.429, 0.560, 0.694];
 const FREE: f64 = 0.429;
@@ -138,4 +141,20 @@ fn times_and_distances_of_an_adults_free_walk() {
         assert!(time_distance(bad[0], bad[1], bad[2]).is_empty(), "{bad:?}");
     }
     assert!(dimensionless_speed(1.0, 9.8, 0.0).is_none() && dimensionless_speed(-1.0, 9.8, 1.0).is_none());
+}
+
+#[test]
+fn each_curve_is_read_to_its_place_and_a_missing_or_short_one_is_named() {
+    let bands = Bands::read(TIMES, CURVES).unwrap();
+    let of = |name: &str| bands.curves.iter().find(|(known, _)| *known == name).map(|(_, curves)| curves).unwrap();
+    // The first and the last line of the file, and means and deviations that differ.
+    assert_eq!((of("pelvis_tilt_angle").mean[0][0], of("pelvis_tilt_angle").sd[0][0]), (11.8, 5.15));
+    let last: Vec<&str> = CURVES.lines().last().unwrap().split(',').collect();
+    assert_eq!(last[..3], ["ground_force_fore_aft", "sd", "0.694"]);
+    assert_eq!(of("ground_force_fore_aft").sd[4][50].to_string(), last[53]);
+    let without = CURVES.lines().filter(|line| !line.starts_with("knee_flexion_moment,sd,0.429")).collect::<Vec<_>>();
+    assert!(Bands::read(TIMES, &without.join("\n")).unwrap_err().contains("no `knee_flexion_moment`"));
+    let line = CURVES.lines().nth(1).unwrap();
+    let (short, _) = line.rsplit_once(',').unwrap();
+    assert!(Bands::read(TIMES, &CURVES.replacen(line, short, 1)).unwrap_err().contains(short));
 }

@@ -95,9 +95,9 @@ impl ConsistencySummary {
             residual_after: consistent.residual_after,
             changes: changes.collect(),
             feet_mm: feet_mm.collect(),
-            mass_percent: 100.0 * consistent.body.mass_share,
-            trunk: consistent.body.trunk.clone(),
-            trunk_center_mm: consistent.body.trunk_center_m.map(|x| 1e3 * x).into(),
+            mass_percent: 100.0 * consistent.mass_share,
+            trunk: consistent.trunk.clone(),
+            trunk_center_mm: consistent.trunk_center_m.map(|x| 1e3 * x).into(),
             iterations: consistent.iterations,
             converged: consistent.converged,
         }

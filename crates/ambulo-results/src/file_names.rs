@@ -56,5 +56,13 @@ pub const WALKS: &str = "walks.csv";
 pub const CLAIMS: &str = "claims.json";
 /// Page of a validation.
 pub const VALIDATION_PAGE: &str = "validation.html";
+/// Page of a session.
+pub const SESSION_PAGE: &str = "session.html";
+/// Reference group that a session is compared with.
+pub const REFERENCE_GROUP: &str = "norm.json";
+/// Description of a batch.
+pub const BATCH: &str = "batch.json";
+/// Page of a batch.
+pub const BATCH_PAGE: &str = "summary.html";
 /// Durations of the run.
 pub const TIMINGS: &str = "timings.json";

@@ -148,7 +148,7 @@ impl<'a> OutputFile<'a> {
     ///
     /// # Errors
     /// A model that the format cannot store.
-    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile<'a>, BodyFileError> {
+    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile<'a>, ExportError> {
         let bytes = to_osim(model)?.write()?;
         Ok(OutputFile { name: name.into(), content: Content::Body { model: Box::new(model.clone()), bytes } })
     }
@@ -270,17 +270,6 @@ fn check_values(table: &str, column: &str, values: impl Iterator<Item = f64>) ->
 
 fn not_finite(table: &str, column: &str, row: usize, found: f64) -> Error {
     Error::NotFinite { table: table.to_owned(), column: column.to_owned(), row: row + 1, found }
-}
-
-/// Why a model cannot be written.
-#[derive(Debug, thiserror::Error)]
-pub enum BodyFileError {
-    /// OpenSim models cannot represent the body.
-    #[error(transparent)]
-    Export(#[from] ExportError),
-    /// The file format cannot store the model.
-    #[error(transparent)]
-    Format(#[from] Error),
 }
 
 /// The tables of a run that `keep` includes. `device` is the generalised forces of a worn device: one column per

@@ -30,11 +30,12 @@ pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, Fo
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, cycle_rows};
 pub use file_names::{
-    CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND, GROUND_MEASURED,
-    GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS, SCENE_REACTIONS,
-    SHAPES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS, VALIDATION_PAGE, WALKS,
+    BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND,
+    GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS,
+    REFERENCE_GROUP, SCENE_REACTIONS, SESSION_PAGE, SHAPES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS,
+    VALIDATION_PAGE, WALKS,
 };
-pub use files::{BodyFileError, OutputFile, WriteError, output_files};
+pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
 pub use outcome::outcome_tables;

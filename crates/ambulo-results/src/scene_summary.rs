@@ -3,7 +3,7 @@
 use crate::summary::{ForceUnit, PeakSummary};
 use ambulo::findings::{Finding, Findings};
 use ambulo::simulation::SceneVerdict;
-use ambulo::simulation::scene::{RunStatistics, Scene, SceneFrame};
+use ambulo::simulation::scene::{IntegratorReason, RunStatistics, Scene, SceneFrame};
 use ambulo::simulation::{Integrator, Owner};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -29,6 +29,9 @@ pub struct SceneSummary {
     pub world: WorldSummary,
     /// The integrator.
     pub integrator: Integrator,
+    /// Why it is this one; `null` in folders of earlier versions.
+    #[serde(default)]
+    pub integrator_reason: Option<IntegratorReason>,
     /// Time step [s].
     pub step_s: f64,
     /// Number of time steps in this run.
@@ -254,6 +257,7 @@ impl SceneExtremes {
                 mass_kg: world.mass(),
             },
             integrator: scene.settings().integrator,
+            integrator_reason: Some(scene.integrator_reason()),
             step_s: scene.settings().step_s,
             steps: statistics.steps,
             window_s: [self.start_s, scene.state().time_s],

@@ -20,6 +20,8 @@ mod optimal_passage;
 mod optimal_predict;
 mod optimal_problem;
 mod optimal_refine;
+mod scene_instants;
+mod three_steps;
 mod tuning;
 mod tuning_gain;
 mod tuning_outcome;

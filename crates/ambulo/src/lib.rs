@@ -121,6 +121,7 @@ pub mod internals {
     pub use crate::ground::predict::unilateral::{unilateral_share, within_friction_cone};
     pub use crate::ground::predict::unknowns::{Curve, UNIT};
     pub use crate::ground::predict::zero_moment_point::{share_along_soles, zero_moment_point};
+    pub use crate::ground::refit::{Refit, hold_loaded_feet};
     pub use crate::ground::stream::continuation::Continuation;
     pub use crate::ground::stream::frame_buffer::FrameBuffer;
     pub use crate::ground::stream::step_timing::StepTiming;

@@ -9,11 +9,12 @@ use ambulo::kinematics::calibration::{
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, fit_markers};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, ContactSphere, Human, SegmentTable};
-use ambulo::model::full_body::{STANDING_TILT, SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
+use ambulo::model::full_body::{STANDING_TILT, full_body};
 use ambulo::model::marker_set::{MarkerSet, RecognisedMarkers};
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::spatial::{Pose, Vec3};
+use ambulo_body::internals::{SegmentShape, SolePlacement, SubjectShape, reshaped};
 
 const RATE_HZ: f64 = 100.0;
 const RADIUS: f64 = 0.007;

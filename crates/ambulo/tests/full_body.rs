@@ -5,9 +5,10 @@ use crate::common::assert_near;
 use ambulo::dynamics::{Workspace, inverse_frame};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
-use ambulo::model::full_body::{SegmentShape, SolePlacement, SubjectShape, full_body, reshaped};
+use ambulo::model::full_body::full_body;
 use ambulo::model::{Drive, Model, Side, to_osim};
 use ambulo::spatial::Vec3;
+use ambulo_body::internals::{SegmentShape, SolePlacement, SubjectShape, reshaped};
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
 /// Rounding of sums of a few dozen numbers of order one.

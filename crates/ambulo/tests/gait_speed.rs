@@ -59,7 +59,7 @@ fn knot_times(walk: &Walk) -> Vec<f64> {
         let speed = walk.curve_speed(&clock).value;
         let legs = walk.legs();
         [0.0, 0.5].map(|shift| {
-            [&legs.hip, &legs.knee, &legs.ankle, walk.arms().elbow()]
+            [&legs.hip, &legs.knee, &legs.ankle, walk.elbow()]
                 .map(|curve| curve.segment_at(clock.phase.value + shift, speed))
         })
     };

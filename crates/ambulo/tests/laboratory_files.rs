@@ -121,7 +121,7 @@ fn events_from_motion_agree_with_plates_within_the_published_errors() {
     for (name, markers, reference) in recordings {
         let found = foot_motion(&markers, &mut Findings::default());
         println!("{name}: walking {:.2} m/s, floor {:.2} m/s", found.walking_speed_m_s, found.floor_speed_m_s);
-        let rows = found.by_method.iter().map(|(m, e)| (m.name(), e));
+        let rows = found.by_method.iter().map(|(m, e)| (*m, e));
         for (method, events) in rows.chain([("agreed", &found.events)]) {
             for row in event_agreement(&reference, events) {
                 println!(

@@ -11,7 +11,7 @@ use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
 use ambulo::ground::footfalls::{Footfalls, footfalls};
-use ambulo::ground::refit::{Refit, hold_loaded_feet};
+use ambulo::internals::{Refit, hold_loaded_feet};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::anatomy::Sole;
 use ambulo::model::{BySide, Model};

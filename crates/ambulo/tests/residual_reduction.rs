@@ -158,7 +158,7 @@ fn print_row(case: &Case, done: &ReducedMotion, ms: f64) {
         angles.iter().take(2).map(|c| format!("{} {:.1} / {:.1}", c.name, c.rms.to_degrees(), c.max.to_degrees()));
     let root = done.changes.iter().filter(|c| c.unit == "m").map(|c| 1e3 * c.max).fold(0.0, f64::max);
     let foot = done.feet.iter().map(|f| 1e3 * f.max_m).fold(0.0, f64::max);
-    let [x, y, z] = done.body.trunk_center_m.map(|x| 1e3 * x).into();
+    let [x, y, z] = done.trunk_center_m.map(|x| 1e3 * x).into();
     println!(
         "| {} | {:.1}, {:.1} | {:.1} | {:.2}, {:.2} | {:.1} | {} | {root:.0} | {foot:.0} | {:+.1} | {x:.0} {y:.0} \
          {z:.0} | {ms:.0} |",
@@ -170,7 +170,7 @@ fn print_row(case: &Case, done: &ReducedMotion, ms: f64) {
         100.0 * after.force_peak_bw,
         after.moment_rms_nm,
         shown.collect::<Vec<_>>().join(", "),
-        100.0 * done.body.mass_share,
+        100.0 * done.mass_share,
     );
 }
 

@@ -6,7 +6,7 @@ use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, fit_markers};
 use ambulo::kinematics::scaling::{
     DistanceMeasurement, MarkerPlacement, MeasuredBody, ProtocolTrials, ScalingError, ScalingProtocol, ScalingStep,
-    SizeSettings, SizedModel, fit_size, measured_factors, scale_by_protocol,
+    SizedModel, fit_size, measured_factors, scale_by_protocol,
 };
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{Drive, MassDistribution, Model, ScaleError};
@@ -113,8 +113,8 @@ fn worst_length(a: &Model, b: &Model) -> (f64, String) {
 /// by other distances.
 fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     let mut findings = Findings::default();
-    let settings = SizeSettings { mass: Some(subject.model.mass()) };
-    let plain = fit_size(&subject.model, &subject.standing, settings, &mut findings).unwrap();
+    let mass = Some(subject.model.mass());
+    let plain = fit_size(&subject.model, &subject.standing, mass, &mut findings).unwrap();
     let (stored, place) = worst_length(&subject.model, &plain.model);
     println!(
         "{name} as stored: marker RMS {:.1} mm before, {:.1} mm after; {place}",
@@ -125,7 +125,7 @@ fn assert_comes_back(name: &str, subject: &Subject, from_stored_mm: f64) {
     for seed in 0..6 {
         let mut r = Random::new(seed);
         let (other, _) = disturbed(&subject.model, &mut r);
-        let sized = fit_size(&other, &subject.standing, settings, &mut Findings::default()).unwrap();
+        let sized = fit_size(&other, &subject.standing, mass, &mut Findings::default()).unwrap();
         let [before, after] = [sized.rms_before_m, sized.rms_m].map(|m| 1000.0 * m.unwrap());
         let (worst, place) = worst_length(&plain.model, &sized.model);
         println!(
@@ -233,7 +233,10 @@ fn measured_distances_give_the_factors_of_a_known_person() {
     let (before, after) = (sized.rms_before_m.unwrap(), sized.rms_m.unwrap());
     assert!(after < 1e-8 && before > 0.003, "{after} from {before}");
     assert!((sized.model.mass() - 60.0).abs() < 1e-9);
-    assert!(sized.moved.iter().all(|m| m.distance_m < 1e-7));
+    let scaled = model.scaled(&sized.factors, None).unwrap();
+    for (placed, scaled) in sized.model.markers().iter().zip(scaled.markers()) {
+        assert!(placed.name == scaled.name && (placed.location - scaled.location).norm() < 1e-7, "{placed:?}");
+    }
 
     let missing = scale_by_protocol(model, &protocol, ProtocolTrials::default(), &mut findings).unwrap_err();
     assert!(matches!(missing, ScalingError::NoTrial { .. }), "{missing}");

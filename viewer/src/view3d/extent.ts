@@ -1,5 +1,5 @@
 import { Quaternion, Vector3 } from "three";
-import type { View } from "../contract";
+import type { View, ViewBody } from "../contract";
 import { Motion } from "./motion";
 import type { Path } from "./path";
 import type { SeriesReader } from "./reader";
@@ -18,10 +18,19 @@ export interface Extent {
   across: number;
 }
 
-/** Measures the figure at about thirty instants. */
+const PELVIS = /pelvis|hips/i;
+
+/** The bodies that the picture frames: those of people, or all if there is no person. A scene's thing far away enters the picture as it comes near. */
+export function framed(view: View): ViewBody[] {
+  const owner = (name: string) => name.slice(0, name.lastIndexOf("/") + 1);
+  const people = new Set(view.bodies.filter(({ name }) => PELVIS.test(name)).map(({ name }) => owner(name)));
+  return people.size > 0 ? view.bodies.filter(({ name }) => people.has(owner(name))) : view.bodies;
+}
+
+/** Measures the people, or all bodies, at about thirty instants. */
 export function extentOf(view: View, numbers: SeriesReader, path: Path, timeline: Timeline): Extent {
   const extent: Extent = { bottom: view.floor_m, top: view.floor_m + 0.3, along: 0.3, across: 0.2 };
-  const bodies = view.bodies.map((body) => ({
+  const bodies = framed(view).map((body) => ({
     motion: new Motion(body, numbers),
     shapes: body.shapes.map(shapePoints),
   }));

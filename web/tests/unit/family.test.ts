@@ -116,7 +116,7 @@ test("the family has the walks that the command solves", async (context) => {
   }
   const speed = 0.36;
   assert.ok(FAMILY.level.axes.speed.includes(speed) && FAMILY.level.axes.step.includes(1));
-  const solved = await solve(["--speed", String(speed * Math.sqrt(FAMILY.gravity * FAMILY.leg * 1.75))]);
+  const solved = await solve({ gait: { speed: speed * Math.sqrt(FAMILY.gravity * FAMILY.leg * 1.75) } });
   assert.ok(typeof solved !== "string", String(solved));
   const stored = new Walks(FAMILY).interpolate(FAMILY.level, [speed, 1, 0]) as Walk;
   const exact = sampled(solved);

@@ -1,44 +1,64 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { commandLine, splitWords, withRoles, wordsFor } from "../../src/files";
+import { requestFor, withRoles } from "../../src/files";
+import type { Request } from "../../src/request";
 
-const NOTHING = { mass: "", height: "", more: "" };
+const NOTHING = { mass: "", height: "" };
 
-/** The command line for files with these contents; `standing` are recordings without a step. */
-async function line(files: Record<string, string>, standing: string[] = [], stated = NOTHING): Promise<string> {
-  const named = Object.entries(files).map(([name, text]) => ({ name, bytes: new TextEncoder().encode(text) }));
-  const dropped = await withRoles(named, async ({ name }) => !standing.includes(name));
-  return commandLine(wordsFor(dropped, stated));
+/** What a request states: fields without a value and empty ones are left out. */
+function stated(value: unknown): unknown {
+  if (value === null || typeof value !== "object" || Array.isArray(value)) {
+    return value;
+  }
+  const fields = Object.entries(value).map(([name, inner]) => [name, stated(inner)] as const);
+  const isStated = (inner: unknown): boolean => inner !== null && inner !== undefined && JSON.stringify(inner) !== "{}";
+  return Object.fromEntries(fields.filter(([, inner]) => isStated(inner) && JSON.stringify(inner) !== "[]"));
 }
 
+/** The request for files with these contents; `standing` are recordings without a step. */
+async function request(files: Record<string, string>, standing: string[] = [], person = NOTHING): Promise<Request> {
+  const named = Object.entries(files).map(([name, text]) => ({ name, bytes: new TextEncoder().encode(text) }));
+  const dropped = await withRoles(named, async ({ name }) => !standing.includes(name));
+  return stated(requestFor(dropped, person)) as Request;
+}
+
+/** A request for forces with this job. */
+const forces = (job: object): object => ({ forces: { job, output: "out" } });
+
 test("a recording is computed by itself, with what the visitor states", async () => {
-  assert.equal(await line({ "walk.c3d": "" }), "ambulo forces walk.c3d -o out");
-  const stated = { mass: " 60.3", height: "1.58", more: "--predict --from 0.5" };
-  const expected = "ambulo forces walk.bvh --mass 60.3 --height 1.58 --predict --from 0.5 -o out";
-  assert.equal(await line({ "walk.bvh": "" }, [], stated), expected);
+  assert.deepEqual(await request({ "walk.c3d": "" }), forces({ recording: "walk.c3d" }));
+  const person = { mass: " 60.3", height: "1.58" };
+  const expected = forces({ recording: "walk.bvh", size: { mass_kg: 60.3, height_m: 1.58 } });
+  assert.deepEqual(await request({ "walk.bvh": "" }, [], person), expected);
+});
+
+test("text that is no number is left to the command, which refuses it", async () => {
+  const expected = forces({ recording: "walk.bvh", size: { mass_kg: "60,3" } });
+  assert.deepEqual(await request({ "walk.bvh": "" }, [], { mass: "60,3", height: "" }), expected);
 });
 
 test("of recordings with markers, the one without a step is the standing trial, and one is computed", async () => {
-  const expected = "ambulo forces b.c3d --static a.c3d -o out";
-  assert.equal(await line({ "a.c3d": "", "b.c3d": "" }, ["a.c3d"]), expected);
-  assert.equal(await line({ "b.c3d": "", "a.c3d": "" }, ["a.c3d"]), expected);
-  assert.equal(await line({ "a.c3d": "", "b.c3d": "", "c.c3d": "", "d.c3d": "" }, ["a.c3d", "d.c3d"]), expected);
-  assert.equal(
-    await line({ "a.trc": "", "b.trc": "" }, ["a.trc", "b.trc"]),
-    "ambulo forces a.trc --static b.trc -o out",
+  const expected = forces({ recording: "b.c3d", standing: "a.c3d" });
+  assert.deepEqual(await request({ "a.c3d": "", "b.c3d": "" }, ["a.c3d"]), expected);
+  assert.deepEqual(await request({ "b.c3d": "", "a.c3d": "" }, ["a.c3d"]), expected);
+  assert.deepEqual(await request({ "a.c3d": "", "b.c3d": "", "c.c3d": "", "d.c3d": "" }, ["a.c3d", "d.c3d"]), expected);
+  assert.deepEqual(
+    await request({ "a.trc": "", "b.trc": "" }, ["a.trc", "b.trc"]),
+    forces({ recording: "a.trc", standing: "b.trc" }),
   );
 });
 
-test("coordinates come with a model, forces and loads; forces that loads name need no option", async () => {
+test("coordinates come with a model, forces and loads; forces that loads name are not stated", async () => {
   const motion = { "walk.mot": "time\tknee_angle_r\n", "body.osim": "" };
-  const forces = { "grf.mot": "time\tground_force_vx\tground_force_px\n" };
+  const grf = { "grf.mot": "time\tground_force_vx\tground_force_px\n" };
   const loads = { "grf.xml": "<OpenSimDocument><ExternalLoads><datafile>grf.mot</datafile></ExternalLoads>" };
-  assert.equal(await line(motion), "ambulo forces walk.mot --model body.osim -o out");
-  assert.equal(await line({ ...motion, ...forces }), "ambulo forces walk.mot --model body.osim --grf grf.mot -o out");
-  const both = await line({ ...motion, ...forces, ...loads });
-  assert.equal(both, "ambulo forces walk.mot --model body.osim --loads grf.xml -o out");
+  const job = { recording: "walk.mot", model: "body.osim" };
+  assert.deepEqual(await request(motion), forces(job));
+  assert.deepEqual(await request({ ...motion, ...grf }), forces({ ...job, forces: { table: "grf.mot" } }));
+  const both = await request({ ...motion, ...grf, ...loads });
+  assert.deepEqual(both, forces({ ...job, forces: { loads: "grf.xml" } }));
   const also = { "grf.xml": `${loads["grf.xml"]}<external_loads_model_kinematics_file>walk.mot</...>` };
-  assert.equal(await line({ ...motion, ...forces, ...also }), both);
+  assert.deepEqual(await request({ ...motion, ...grf, ...also }), both);
 });
 
 test("set-ups name their files", async () => {
@@ -49,28 +69,25 @@ test("set-ups name their files", async () => {
     "body.osim": "",
     "loads.xml": "<ExternalLoads>",
   };
-  assert.equal(await line(files), "ambulo forces --setup ik.xml --setup id.xml -o out");
+  assert.deepEqual(await request(files), forces({ setups: ["ik.xml", "id.xml"] }));
 });
 
 test("files of Ambulo are told apart by their keys", async () => {
-  assert.equal(await line({ "fall.toml": "step = 0.001\n[[body]]\n" }), "ambulo simulate fall.toml -o out");
-  assert.equal(await line({ "limp.toml": 'base = "standard"\n[[joint]]\n' }), "ambulo walk --gait limp.toml -o out");
-  const options: [string, string][] = [
+  const scene = { simulate: { scene: "fall.toml", output: "out" } };
+  assert.deepEqual(await request({ "fall.toml": "step = 0.001\n[[body]]\n" }), scene);
+  const walk = { walk: { gait: { gait: "limp.toml" }, output: "out" } };
+  assert.deepEqual(await request({ "limp.toml": 'base = "standard"\n[[joint]]\n' }), walk);
+  const fields: [string, string][] = [
     ["person", "mass_kg = 60\nleg_length_m = 0.9\n"],
     ["markers", 'name = "lab"\n[[pair]]\nlandmark = "asis"\n'],
     ["thresholds", 'skip = ["sliding"]\n'],
   ];
-  for (const [option, text] of options) {
-    assert.equal(await line({ "a.c3d": "", "b.toml": text }), `ambulo forces a.c3d --${option} b.toml -o out`);
+  for (const [field, text] of fields) {
+    assert.deepEqual(await request({ "a.c3d": "", "b.toml": text }), forces({ recording: "a.c3d", [field]: "b.toml" }));
   }
 });
 
-test("words are split and joined as in a shell", () => {
-  assert.deepEqual(splitWords(`--add-mass 'torso:2' --x="a b" c`), ["--add-mass", "torso:2", "--x=a b", "c"]);
-  assert.deepEqual(splitWords("  "), []);
-  assert.equal(commandLine(["forces", "it's a walk.c3d"]), "ambulo forces 'it'\\''s a walk.c3d'");
-});
-
-test("a file name is never taken for an option", async () => {
-  assert.equal(await line({ "--force.c3d": "" }), "ambulo forces ./--force.c3d -o out");
+test("two files for one purpose are refused by name", () => {
+  const models = ["a.osim", "b.osim"].map((name) => ({ name, bytes: new Uint8Array(), role: "model" as const }));
+  assert.throws(() => requestFor(models, NOTHING), /a\.osim and b\.osim: found two files as "model"; expected one/);
 });

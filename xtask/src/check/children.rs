@@ -1,6 +1,7 @@
 //! Programs that the lanes start: their output, processor time and end.
 
 use crate::build_time::children_cpu_s;
+use std::ffi::OsStr;
 use std::io;
 use std::process::{Command, ExitStatus};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,6 +18,31 @@ pub(super) struct Children {
     /// time.
     cpu_s: Mutex<Option<f64>>,
     stopped: AtomicBool,
+}
+
+/// The same command with less priority than others of this check. Pages in a browser and Python's tests mostly wait:
+/// beside compilers and test programs of the same priority they wait for the processor too, and end last.
+pub(super) fn behind_others(command: &Command) -> Command {
+    if !cfg!(unix) {
+        return same(command, command.get_program(), &[]);
+    }
+    same(command, OsStr::new("nice"), &[OsStr::new("-n"), OsStr::new("10"), command.get_program()])
+}
+
+/// A command with other first words; its arguments, variables and folder are the same.
+fn same(command: &Command, program: &OsStr, words: &[&OsStr]) -> Command {
+    let mut other = Command::new(program);
+    other.args(words).args(command.get_args());
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => other.env(name, value),
+            None => other.env_remove(name),
+        };
+    }
+    if let Some(folder) = command.get_current_dir() {
+        other.current_dir(folder);
+    }
+    other
 }
 
 /// How a program ended.

@@ -1,7 +1,7 @@
 //! Runs lanes of steps side by side. The output of a step goes to a file and is printed when the step has ended, so
 //! that lanes do not mix.
 
-use super::children::Children;
+use super::children::{Children, behind_others};
 use super::programs;
 use super::steps::{Lane, PROFILE, Step, TEST_PROGRAMS, Tool};
 use crate::workspace;
@@ -130,6 +130,9 @@ impl Lanes {
             return programs::run_all(&list(), &self.children, &mut log);
         }
         let mut command = step.command(self.measured);
+        if step.tool.waits_little() {
+            command = behind_others(&command);
+        }
         let output = if step.name == TEST_PROGRAMS { File::create(list()) } else { log.try_clone() };
         command.stdout(output.map_err(cannot)?).stderr(log);
         let ended = self.children.run(&mut command).map_err(cannot)?;

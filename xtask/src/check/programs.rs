@@ -4,7 +4,7 @@
 //! time of each test can be asked for and its place changed: the stable test harness has both options only for the
 //! variable `RUSTC_BOOTSTRAP`.
 
-use super::children::Children;
+use super::children::{Children, behind_others};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -89,7 +89,7 @@ pub(super) fn run_all(list: &Path, children: &Children, log: &mut File) -> Resul
         let cannot = |e: io::Error| format!("{}: {e}", program.file.display());
         writeln!(log, "     Running {} ({})", program.name, program.file.display()).map_err(cannot)?;
         // The output of tests that pass has the values that they measured and the recordings that were missing.
-        let mut command = program.command(&["--show-output", "--report-time"]);
+        let mut command = behind_others(&program.command(&["--show-output", "--report-time"]));
         command.stdout(log.try_clone().map_err(cannot)?).stderr(log.try_clone().map_err(cannot)?);
         let ended = children.run(&mut command).map_err(cannot)?;
         cpu_s = cpu_s.zip(ended.cpu_s).map(|(sum, more)| sum + more);

@@ -3,7 +3,7 @@
 use crate::python::interpreter;
 use crate::{web, workspace};
 use std::env::consts::EXE_SUFFIX;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The profile that everything is built in; it has a folder of its own in `target`.
@@ -18,6 +18,8 @@ pub(super) const TESTS: &str = "tests";
 pub(super) enum Tool {
     /// In the root of the workspace.
     Cargo,
+    /// The same, with the compiler of `cargo clippy`: it finds what the lints have compiled, and compiles nothing anew.
+    CargoAfterClippy,
     /// The same, for the target of the browser.
     CargoForWasm,
     /// In `viewer/`.
@@ -36,7 +38,7 @@ pub(super) struct Step {
     pub(super) tool: Tool,
     pub(super) arguments: &'static [&'static str],
     /// Set for this step alone.
-    pub(super) variable: Option<(&'static str, &'static str)>,
+    pub(super) variables: &'static [(&'static str, &'static str)],
     /// The step of another lane whose results are needed.
     pub(super) after: Option<&'static str>,
     /// What to do when it fails.
@@ -47,7 +49,7 @@ pub(super) struct Step {
 pub(super) type Lane = &'static [Step];
 
 /// Most fields of most steps.
-const PLAIN: Step = Step { name: "", tool: Tool::Cargo, arguments: &[], variable: None, after: None, hint: "" };
+const PLAIN: Step = Step { name: "", tool: Tool::Cargo, arguments: &[], variables: &[], after: None, hint: "" };
 
 /// Cargo builds one thing at a time in a folder, so what compiles is one lane. The test programs come first in it:
 /// while they run, the other steps of all lanes use the processors that they leave.
@@ -81,7 +83,11 @@ const COMPILED: [Step; 8] = [
         arguments: &[
             "clippy",
             "--workspace",
-            "--all-targets",
+            // Not `--all-targets`, which compiles a library a second time for its unit tests, also where it has none.
+            "--lib",
+            "--bins",
+            "--tests",
+            "--examples",
             "--locked",
             "--profile",
             PROFILE,
@@ -95,8 +101,24 @@ const COMPILED: [Step; 8] = [
     },
     Step {
         name: "documentation",
-        arguments: &["doc", "--workspace", "--no-deps", "--locked", "--profile", PROFILE],
-        variable: Some(("RUSTDOCFLAGS", "-D warnings")),
+        tool: Tool::CargoAfterClippy,
+        // With the examples, because what they need decides how dependencies are compiled, as in the lints.
+        arguments: &[
+            "doc",
+            "--workspace",
+            "--lib",
+            "--bins",
+            "--examples",
+            "--no-deps",
+            "--locked",
+            "--profile",
+            PROFILE,
+        ],
+        variables: &[
+            ("RUSTDOCFLAGS", "-D warnings"),
+            // The arguments of the lints, as `cargo clippy` hands them to its compiler.
+            ("CLIPPY_ARGS", "-D__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__"),
+        ],
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
         ..PLAIN
     },
@@ -210,7 +232,7 @@ pub(super) const LONG: [Step; 6] = [
             "--",
             "--show-output",
         ],
-        variable: Some(("AMBULO_SWEEP", "all")),
+        variables: &[("AMBULO_SWEEP", "all")],
         hint: "the failing test names the command and its options; the range of a number belongs in the library",
         ..PLAIN
     },
@@ -226,14 +248,14 @@ pub(super) const LONG: [Step; 6] = [
             "--",
             "--show-output",
         ],
-        variable: Some(("AMBULO_SCENES", "all")),
+        variables: &[("AMBULO_SCENES", "all")],
         hint: "the failing test names the seeds of its scenes",
         ..PLAIN
     },
     Step {
         name: "times",
         arguments: &["test", "--workspace", "--locked", "--profile", PROFILE, "in_time", "--", "--show-output"],
-        variable: Some(("AMBULO_TIMES", "1")),
+        variables: &[("AMBULO_TIMES", "1")],
         hint: "limits of time hold on a machine that does nothing else; run the failing test again",
         ..PLAIN
     },
@@ -252,16 +274,29 @@ impl Tool {
         let starts =
             |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
         match self {
-            Tool::Cargo | Tool::Xtask | Tool::TestPrograms => None,
+            Tool::Cargo | Tool::CargoAfterClippy | Tool::Xtask | Tool::TestPrograms => None,
             Tool::CargoForWasm => (!web::has_target()).then_some("the target wasm32-wasip1 (`rustup target add`)"),
             Tool::Python => (!has_venv()).then_some("Python 3.11 or later with venv"),
             Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
         }
     }
 
+    /// Whether its programs use a processor all the time.
+    pub(super) fn waits_little(self) -> bool {
+        !matches!(self, Tool::Npm | Tool::Python)
+    }
+
     fn command(self) -> Command {
         match self {
             Tool::Cargo | Tool::CargoForWasm | Tool::TestPrograms => workspace::cargo(),
+            Tool::CargoAfterClippy => {
+                let mut command = workspace::cargo();
+                let compiler = Path::new(command.get_program()).with_file_name(format!("clippy-driver{EXE_SUFFIX}"));
+                if compiler.is_file() {
+                    command.env("RUSTC_WORKSPACE_WRAPPER", compiler);
+                }
+                command
+            }
             Tool::Xtask | Tool::Python => Command::new(std::env::current_exe().unwrap_or_else(|_| "xtask".into())),
             Tool::Npm => {
                 let mut command = Command::new("npm");
@@ -282,14 +317,14 @@ impl Step {
                 command.args(["--exclude", super::measurements::PACKAGE]);
             }
         }
-        command.envs(self.variable);
+        command.envs(self.variables.iter().copied());
         command
     }
 
     /// What is run, in words.
     pub(super) fn words(&self) -> String {
         let tool = match self.tool {
-            Tool::Cargo | Tool::CargoForWasm => "cargo",
+            Tool::Cargo | Tool::CargoAfterClippy | Tool::CargoForWasm => "cargo",
             Tool::Npm => "npm",
             Tool::Xtask | Tool::Python => "cargo xtask",
             Tool::TestPrograms => return "every test program".to_owned(),

@@ -8,26 +8,18 @@
 //!
 //! The projection is the gradient of ½ |λ|², so its derivative ∂λ/∂z is symmetric with eigenvalues between 0 and 1.
 
-/// A force projected onto the cone, in the frame of the contact (normal, first tangent, second tangent) [N].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConeProjection {
-    /// The nearest force of the cone.
-    pub force: [f64; 3],
-    /// ∂force/∂z, symmetric.
-    pub slope: [[f64; 3]; 3],
-}
-
-/// Projects a force onto Coulomb's cone with this friction coefficient.
+/// Projects a force onto Coulomb's cone with this friction coefficient, in the frame of the contact (normal, first
+/// tangent, second tangent) [N]: the nearest force λ of the cone, and ∂λ/∂z, symmetric.
 #[inline]
 #[must_use]
-pub fn project_onto_cone(z: [f64; 3], friction: f64) -> ConeProjection {
+pub fn project_onto_cone(z: [f64; 3], friction: f64) -> ([f64; 3], [[f64; 3]; 3]) {
     let [normal, x, y] = z;
     let length = (x * x + y * y).sqrt();
     if length <= friction * normal {
-        return ConeProjection { force: z, slope: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+        return (z, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     }
     if friction * length <= -normal || length <= 0.0 {
-        return ConeProjection { force: [0.0; 3], slope: [[0.0; 3]; 3] };
+        return ([0.0; 3], [[0.0; 3]; 3]);
     }
     let (x, y) = (x / length, y / length);
     let share = 1.0 / (1.0 + friction * friction);
@@ -47,5 +39,5 @@ pub fn project_onto_cone(z: [f64; 3], friction: f64) -> ConeProjection {
             slope[1 + i][1 + j] += around * across[i][j];
         }
     }
-    ConeProjection { force: [pushed, pushed * edge[1], pushed * edge[2]], slope }
+    ([pushed, pushed * edge[1], pushed * edge[2]], slope)
 }

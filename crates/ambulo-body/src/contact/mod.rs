@@ -19,6 +19,6 @@ pub use broad_phase::candidate_pairs;
 #[doc(hidden)]
 pub use compliant::FrictionCurve;
 pub use compliant::{ContactSlopes, HuntCrossley, HuntCrossleyError, Onset};
-pub use cone::{ConeProjection, project_onto_cone};
+pub use cone::project_onto_cone;
 pub use detect::{ContactPoint, contacts};
 pub use shape::{Outline, Shape, ShapeError};

@@ -286,9 +286,9 @@ fn law(
                 let lift = if k == 0 { shift } else { 0.0 };
                 (center[start + k] - rho * (u(start + k) + lift)) / soft
             });
-            let nearest = project_onto_cone(z, friction);
-            lambda[start..start + 3].copy_from_slice(&nearest.force);
-            Slope::Contact(nearest.slope.map(|row| row.map(|s| s * rho / soft)))
+            let (nearest, slope) = project_onto_cone(z, friction);
+            lambda[start..start + 3].copy_from_slice(&nearest);
+            Slope::Contact(slope.map(|row| row.map(|s| s * rho / soft)))
         }
     }
 }
@@ -301,7 +301,7 @@ fn confine(group: &ConstraintGroup, lambda: &mut [f64]) {
             group.rows.clone().for_each(|row| lambda[row] = lambda[row].clamp(least, most));
         }
         Law::Contact { friction, bound } => {
-            let force = project_onto_cone([lambda[start], lambda[start + 1], lambda[start + 2]], friction).force;
+            let (force, _) = project_onto_cone([lambda[start], lambda[start + 1], lambda[start + 2]], friction);
             let share = if force[0] > bound { bound / force[0] } else { 1.0 };
             (0..3).for_each(|k| lambda[start + k] = force[k] * share);
         }

@@ -576,7 +576,8 @@ codes! {
         "A drive reached its largest force or moment and does not follow its motion exactly."
         "Nothing to do if this is intended; otherwise allow a larger force.";
     StartContradictory "start.contradictory" Warning
-        "The initial velocities contradict joints, drives or closed loops; the nearest consistent velocities are used."
+        "The initial velocities contradict joints, drives or closed loops by more than 1 % (0.01 % of the kinetic \
+         energy); the nearest consistent velocities are used."
         "Give velocities that the joints allow, or only the rates of their coordinates.";
     EnergyRose "energy.rose" Warning
         "The mechanical energy rose above that of the start although nothing drives the scene."

@@ -28,19 +28,8 @@ pub struct ClinicalAngles {
     pub pelvic_obliquity: Vec<f64>,
     /// Right side of the pelvis forward [rad].
     pub pelvic_rotation: Vec<f64>,
-    /// The hips, where there is a leg.
-    pub hips: BySide<Option<HipAngles>>,
-}
-
-/// Angles of one hip, one entry per frame.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct HipAngles {
-    /// Flexion [rad].
-    pub flexion: Vec<f64>,
-    /// Adduction [rad].
-    pub adduction: Vec<f64>,
-    /// Internal rotation [rad].
-    pub rotation: Vec<f64>,
+    /// Flexion, adduction and internal rotation of the hips [rad], where there is a leg.
+    pub hips: BySide<Option<[Vec<f64>; 3]>>,
 }
 
 /// Angles of a motion in the clinical axes of the pelvis; `None` for a model without legs.
@@ -55,7 +44,7 @@ pub fn clinical_angles(model: &Model, trajectory: &Trajectory, frame: &PelvicFra
         pelvic_tilt: Vec::new(),
         pelvic_obliquity: Vec::new(),
         pelvic_rotation: Vec::new(),
-        hips: thighs.map(|thigh| thigh.map(|_| HipAngles::default())),
+        hips: thighs.map(|thigh| thigh.map(|_| Default::default())),
     };
     each_body_motion(model, trajectory, |_, bodies| {
         let pelvis = bodies[frame.pelvis.index()].pose.rotation * frame.axes;
@@ -70,9 +59,9 @@ pub fn clinical_angles(model: &Model, trajectory: &Trajectory, frame: &PelvicFra
             let thigh = bodies[thigh.index()].pose.rotation * axes;
             let [flexion, adduction, rotation] = angles_zxy(&(pelvis.transpose() * thigh));
             let inwards = if side == Side::Right { 1.0 } else { -1.0 };
-            hip.flexion.push(flexion);
-            hip.adduction.push(inwards * adduction);
-            hip.rotation.push(inwards * rotation);
+            hip[0].push(flexion);
+            hip[1].push(inwards * adduction);
+            hip[2].push(inwards * rotation);
         }
     });
     unwrap_turns(&mut angles.pelvic_rotation);

@@ -27,7 +27,7 @@ pub mod sensor_fit;
 pub use body_motion::{BodyMotion, body_motion, each_body_motion};
 #[doc(hidden)]
 pub use calibration::angles_zxy;
-pub use clinical_angles::{ClinicalAngles, HipAngles, clinical_angles};
+pub use clinical_angles::{ClinicalAngles, clinical_angles};
 pub use flight_gravity::FlightGravity;
 #[doc(hidden)]
 pub use flight_gravity::WRONG_CLOCK;

@@ -13,8 +13,9 @@ pub use super::skeleton_body::{JointCentreError, STANDING};
 use super::skeleton_body::{body_of_joint_centres, standing_ankle_height};
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
-use crate::model::full_body::{SolePlacement, full_body};
+use crate::model::full_body::full_body;
 use crate::model::marker_set::Segment;
+use crate::model::subject_shape::SolePlacement;
 use crate::model::{Model, Side};
 use crate::motion::MarkerRecording;
 use crate::motion::skeleton::SkeletonRecording;
@@ -32,28 +33,16 @@ pub struct Retargeted {
     pub flights: Option<FlightGravity>,
 }
 
-/// Why a skeleton is rejected.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RetargetError {
-    /// The body cannot be built from the joint centres.
-    #[error(transparent)]
-    Body(#[from] JointCentreError),
-    /// The marker fit failed.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-}
-
 /// Transfers the motion of a skeleton to a body of this build.
 ///
 /// # Errors
-/// Implausible mass or stature, a skeleton without moving legs: see [`RetargetError`].
+/// Implausible mass or stature, a skeleton without moving legs: see [`JointCentreError`].
 pub fn retarget(
     build: &Build,
     skeleton: &SkeletonRecording,
     findings: &mut Findings,
-) -> Result<Retargeted, RetargetError> {
-    let table = full_body(build).map_err(JointCentreError::from)?;
+) -> Result<Retargeted, JointCentreError> {
+    let table = full_body(build)?;
     let feet = [SolePlacement::of(&table.dimensions); 2];
     let human = body_of_joint_centres(&table, &skeleton.markers, feet, (Code::BvhLengths, findings))?;
     let floor = floor(&skeleton.markers, table.dimensions.ankle_height);

@@ -7,9 +7,10 @@
 //! Not handled: shoulders that move relative to the trunk, hands.
 //! Pinned by: tests/retarget.rs, tests/segment_poses.rs
 
+use super::marker_fit::FitError;
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{BuildError, Dimensions, Human};
-use crate::model::full_body::{SegmentShape, SolePlacement, SubjectShape, reshaped};
+use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, reshaped};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::POINT_DISTANCE_M;
 use crate::motion::{MarkerPath, MarkerRecording};
@@ -22,7 +23,7 @@ pub const STANDING: f64 = 0.1;
 /// Relative difference of a segment length from the table above which it is reported.
 const REPORTED: f64 = 0.15;
 
-/// Why recorded joint centres give no body.
+/// Why recorded joint centres give no body, or no motion of it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JointCentreError {
@@ -37,6 +38,9 @@ pub enum JointCentreError {
         /// The second point.
         b: String,
     },
+    /// The marker fit failed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
 }
 
 /// The body of a table with the lengths of recorded joint centres, and with these feet; `unusual` is the code for

@@ -28,6 +28,9 @@ pub enum ExportError {
         /// Forms that can be written.
         expected: &'static str,
     },
+    /// The file format cannot store the model.
+    #[error(transparent)]
+    Format(#[from] ambulo_formats::Error),
 }
 
 /// Version of the document.

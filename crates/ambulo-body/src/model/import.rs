@@ -15,10 +15,13 @@ use ambulo_formats::osim::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Why a document does not describe a model that can be computed.
+/// Why a file or a document does not describe a model that can be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportError {
+    /// The file is not an OpenSim document.
+    #[error(transparent)]
+    File(#[from] ambulo_formats::Error),
     /// A body that is not connected to ground.
     #[error(
         "body `{body}` (line {line}) is not connected to ground; expected a joint with this body as its child. hint: a \
@@ -113,18 +116,6 @@ pub enum ImportError {
     Model(#[from] ModelError),
 }
 
-/// Why an `.osim` file cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum OsimError {
-    /// The file is not an OpenSim document.
-    #[error(transparent)]
-    File(#[from] ambulo_formats::Error),
-    /// The document does not describe a model that can be computed.
-    #[error(transparent)]
-    Model(#[from] ImportError),
-}
-
 impl Model {
     /// Reads an OpenSim model (`.osim`).
     ///
@@ -142,8 +133,8 @@ impl Model {
     /// assert!((model.mass() - 72.6).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn from_osim(bytes: &[u8], findings: &mut Findings) -> Result<Model, OsimError> {
-        Ok(from_osim(&OsimModel::read(bytes)?, findings)?)
+    pub fn from_osim(bytes: &[u8], findings: &mut Findings) -> Result<Model, ImportError> {
+        from_osim(&OsimModel::read(bytes)?, findings)
     }
 }
 

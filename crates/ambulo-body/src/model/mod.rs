@@ -22,6 +22,7 @@ mod scaled;
 mod scapulothoracic;
 mod side;
 mod simm_spline;
+pub(crate) mod subject_shape;
 
 pub use anatomy::{Anatomy, Movement};
 pub use bushing::Bushing;
@@ -30,7 +31,7 @@ pub use bushing::{BushingEnd, Resistance};
 pub use by_side::BySide;
 pub use export::{ExportError, to_osim};
 pub use function::Function;
-pub use import::{ImportError, OsimError, from_osim};
+pub use import::{ImportError, from_osim};
 pub use joint::{Displacement, Joint, JointAxis, JointSpeeds};
 pub use knots::Knots;
 pub(crate) use posture::ModelPosture;

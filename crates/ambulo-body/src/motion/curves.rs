@@ -56,15 +56,6 @@ pub enum CurveError {
     },
 }
 
-/// Splines of the coordinates of a model.
-#[derive(Debug, Clone)]
-pub struct CoordinateCurves {
-    /// First and last time [s].
-    pub span_s: [f64; 2],
-    /// One entry per coordinate of the model; `None` if not recorded [rad or m].
-    pub columns: Vec<Option<NaturalSpline>>,
-}
-
 /// The samples of a column.
 struct Samples {
     /// Times [s].
@@ -87,7 +78,8 @@ impl RecordedTable {
         Ok(RecordedTable { origin: origin.to_owned(), table })
     }
 
-    /// Splines of all coordinates of `model` for which `wanted` is true.
+    /// Splines of all coordinates of `model` for which `wanted` is true [rad or m], `None` if not recorded; and the
+    /// first and last time [s].
     ///
     /// # Errors
     /// Times that do not increase, no known column, long gaps, fewer samples than a quintic spline needs.
@@ -96,7 +88,7 @@ impl RecordedTable {
         model: &Model,
         wanted: impl Fn(CoordinateId) -> bool,
         findings: &mut Findings,
-    ) -> Result<CoordinateCurves, CurveError> {
+    ) -> Result<(Vec<Option<NaturalSpline>>, [f64; 2]), CurveError> {
         let motion = coordinates_from_table(model, &self.table, &self.origin, findings)?;
         let times = even(&motion.times);
         let mut columns = Vec::with_capacity(motion.columns.len());
@@ -106,7 +98,7 @@ impl RecordedTable {
                 None => None,
             });
         }
-        Ok(CoordinateCurves { span_s: span(&times), columns })
+        Ok((columns, span(&times)))
     }
 
     /// Spline of one column with its first and last time [s]; `turns` means that it is an angle, which may be in

@@ -54,22 +54,6 @@ impl LowPass {
     pub const COMPARED_PLATES: LowPass = LowPass { order: 2, cutoff_hz: 20.0 };
 }
 
-/// A filtered series with its extension at both ends.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaddedSeries {
-    /// `pad` samples before the data, the data, `pad` samples after.
-    pub samples: Vec<f64>,
-    /// Number of samples added at each end.
-    pub pad: usize,
-}
-
-impl PaddedSeries {
-    /// The filtered data without the extension.
-    pub fn data(&self) -> &[f64] {
-        &self.samples[self.pad..self.samples.len() - self.pad]
-    }
-}
-
 /// Why a series could not be filtered.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -116,7 +100,8 @@ pub enum FilterError {
 
 /// Filters uniformly sampled values; the result has the same length.
 pub fn low_pass(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f64>, FilterError> {
-    Ok(low_pass_padded(samples, rate_hz, filter)?.data().to_vec())
+    let (padded, pad) = low_pass_padded(samples, rate_hz, filter)?;
+    Ok(padded[pad..pad + samples.len()].to_vec())
 }
 
 /// As [`low_pass`], of several series, which takes less time than each alone.
@@ -142,12 +127,12 @@ pub fn low_pass_each(
 
 /// Filters uniformly sampled values and keeps the extension by half of the samples at each end, so that a spline
 /// through the result has its ends outside the data.
-pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<PaddedSeries, FilterError> {
+pub fn low_pass_padded(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(Vec<f64>, usize), FilterError> {
     check(samples, rate_hz, filter)?;
     let pad = samples.len() / 2;
     let rows = extend_by_reflection(samples, pad).into_iter().map(|x| [x]).collect();
-    let samples = run_both_ways(rows, rate_hz, filter).into_iter().map(|[x]| x).collect();
-    Ok(PaddedSeries { samples, pad })
+    let padded = run_both_ways(rows, rate_hz, filter).into_iter().map(|[x]| x).collect();
+    Ok((padded, pad))
 }
 
 /// Series that are filtered side by side. Each sample waits for the one before it; a processor computes others

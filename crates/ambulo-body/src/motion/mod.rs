@@ -36,7 +36,7 @@ pub use b3d_trial::{B3dError, B3dTrial, reasons as missing_force_reasons};
 #[doc(hidden)]
 pub use bids::BidsError;
 pub use bids::{coordinates_from_bids, is_bids_markers, markers_from_bids};
-pub use curves::{CoordinateCurves, CurveError, RecordedTable};
+pub use curves::{CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
@@ -50,7 +50,7 @@ pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_fro
 pub use marker_table::{is_marker_table, markers_from_table};
 #[doc(hidden)]
 pub use real_points::are_markers;
-pub use recorded_motion::{RecordedMotion, RecordedMotionError, motion_from_c3d};
+pub use recorded_motion::{RecordedMotion, motion_from_c3d};
 pub use recording::{Motion, MotionError};
 #[doc(hidden)]
 pub use segment_poses::PosedSegment;

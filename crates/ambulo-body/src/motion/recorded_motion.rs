@@ -1,6 +1,6 @@
 //! The recorded motion of a C3D file: markers, or poses of segments.
 
-use super::marker_recording::{MarkerError, MarkerRecording, markers_from_c3d};
+use super::marker_recording::{MarkerRecording, markers_from_c3d};
 use super::segment_poses::{SegmentPoseError, SegmentPoses, segment_poses_from_c3d};
 use crate::findings::{Code, Findings};
 use ambulo_formats::c3d::C3d;
@@ -14,23 +14,11 @@ pub struct RecordedMotion {
     pub poses: Option<SegmentPoses>,
 }
 
-/// Why a C3D file shows no motion.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecordedMotionError {
-    /// Markers that cannot be used.
-    #[error(transparent)]
-    Markers(#[from] MarkerError),
-    /// Poses that cannot be used, in a file without markers.
-    #[error(transparent)]
-    Poses(#[from] SegmentPoseError),
-}
-
 /// Reads the motion of a C3D file. Poses of pelvis and legs are preferred to markers.
 ///
 /// # Errors
 /// Neither markers nor poses that can be used.
-pub fn motion_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<RecordedMotion, RecordedMotionError> {
+pub fn motion_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<RecordedMotion, SegmentPoseError> {
     if c3d.rotations.is_empty() {
         return Ok(RecordedMotion { markers: markers_from_c3d(c3d, findings)?, poses: None });
     }
@@ -51,7 +39,7 @@ pub fn motion_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<RecordedMot
                 findings.report(Code::PosesOdd, format!("{error}; the markers were used"));
                 Ok(RecordedMotion { markers, poses: None })
             }
-            Err(_) => Err(error.into()),
+            Err(_) => Err(error),
         },
     }
 }

@@ -234,9 +234,9 @@ impl Fitters {
             Smoother::Off => (samples.to_vec(), 0, Smoothing::Interpolate),
             Smoother::Spline => (samples.to_vec(), 0, Smoothing::GeneralizedCrossValidation),
             Smoother::Butterworth(filter) => {
-                let series = low_pass_padded(samples, self.whole.rate_hz(), filter)
+                let (padded, pad) = low_pass_padded(samples, self.whole.rate_hz(), filter)
                     .map_err(|source| MotionError::Filter { column: name.to_owned(), source })?;
-                (series.samples, series.pad, Smoothing::Interpolate)
+                (padded, pad, Smoothing::Interpolate)
             }
         };
         let fitter = match self.fitter.take() {

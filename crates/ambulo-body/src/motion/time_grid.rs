@@ -1,5 +1,7 @@
 //! Uniform time grids, time windows, and interpolation between samples.
 
+use serde::Deserialize;
+
 /// Times at a constant step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeGrid {
@@ -12,7 +14,9 @@ pub struct TimeGrid {
 }
 
 /// A range of time; `None` is an open end.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Window {
     /// Start [s].
     pub from_s: Option<f64>,

@@ -2,6 +2,7 @@
 
 use super::{PrintArgs, ReplaceArgs};
 use clap::{Args as ClapArgs, ValueEnum};
+use serde::Deserialize;
 use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
@@ -60,7 +61,9 @@ pub(crate) enum C3dPart {
     Forces,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (after `ambulo demo -o demo`):
   ambulo events demo/input/walk.c3d
 
@@ -75,8 +78,10 @@ pub(crate) struct EventsArgs {
     /// --force.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }

@@ -1,7 +1,8 @@
 //! Options of `ambulo forces`.
 
 use super::values::{number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds};
-use super::{CheckArgs, PrintArgs, ReplaceArgs};
+use super::{CheckArgs, Handling, OUT, PrintArgs, ReplaceArgs};
+use crate::request::{CalibrateRequest, ForcesRequest};
 use ambulo::analysis::Adjustable;
 use ambulo::job::{
     Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, ForceFiles, HeadingAxis, Job, MarkerFitting, ModelChoice,
@@ -13,6 +14,7 @@ use ambulo::motion::Window;
 use ambulo::study::{AddedMass, GroundSettings, Settings, StatedSize};
 use ambulo_results::Convention;
 use clap::{Args as ClapArgs, ValueEnum};
+use serde::Deserialize;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, ClapArgs)]
@@ -147,7 +149,7 @@ pub(crate) struct ForcesArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = ForcesArgs::OUTPUT)]
+    #[arg(short, long, value_name = "DIR", default_value = OUT)]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
@@ -170,23 +172,18 @@ pub struct Outputs {
 }
 
 impl ForcesArgs {
-    /// The folder for the results, if none is given.
-    pub(super) const OUTPUT: &'static str = "out";
-    /// The word for every trial.
-    const ALL_TRIALS: &'static str = "all";
-
-    /// Whether every trial of a .b3d is to be computed.
-    pub(crate) fn chooses_all_trials(&self) -> bool {
-        self.trial.as_deref() == Some(ForcesArgs::ALL_TRIALS)
+    /// The request that the options describe.
+    pub(crate) fn request(&self) -> ForcesRequest {
+        let (convention, keep, output) = (self.convention.into(), self.keep.clone(), self.output.clone());
+        ForcesRequest { job: self.job(), convention, keep, output }
     }
 
-    /// What is written.
-    pub(crate) fn outputs(&self) -> Outputs {
-        Outputs { convention: self.convention.into(), keep: self.keep.clone() }
+    /// How it is handled.
+    pub(crate) fn handling(&self) -> Handling {
+        Handling { replace: self.replace, check: self.check, print: self.print }
     }
 
-    /// The job that the options describe.
-    pub(crate) fn job(&self) -> Job {
+    fn job(&self) -> Job {
         let args = self.clone();
         Job {
             recording: args.input,
@@ -246,7 +243,7 @@ pub(crate) struct CalibrateArgs {
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
     /// File for the calibration; an existing one is only overwritten with --force.
-    #[arg(short, long, value_name = "FILE.toml", default_value = "person.toml")]
+    #[arg(short, long, value_name = "FILE.toml", default_value = CalibrateRequest::OUTPUT)]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
@@ -255,15 +252,23 @@ pub(crate) struct CalibrateArgs {
 }
 
 impl CalibrateArgs {
-    /// The job of every trial: its ground forces are predicted.
-    pub(crate) fn job(&self) -> Job {
-        let settings = Processing { ground: GroundSettings::Predicted, ..self.subject.settings() };
-        Job { model: self.model.clone().map(ModelChoice::from), settings, ..self.subject.clone().job() }
+    /// How it is handled.
+    pub(crate) fn handling(&self) -> Handling {
+        Handling { replace: self.replace, print: self.print, ..Handling::default() }
+    }
+
+    /// The request that the options describe.
+    pub(crate) fn request(&self) -> CalibrateRequest {
+        let model = self.model.clone().map(ModelChoice::from);
+        let job = Job { model, settings: self.subject.settings(), ..self.subject.clone().job() };
+        CalibrateRequest { trials: self.trials.clone(), job, output: self.output.clone() }
     }
 }
 
 /// How angles of pelvis and hips are measured.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) enum AngleConvention {
     #[default]
     Clinical,

@@ -3,8 +3,9 @@
 mod batch;
 mod exchange;
 mod forces;
-mod named;
+pub(crate) mod json;
 mod report;
+mod run;
 mod session;
 mod stream;
 mod tools;
@@ -12,14 +13,16 @@ mod trial_files;
 mod validate;
 mod values;
 mod walk;
+mod words;
 mod words_of_job;
+mod words_of_request;
 
 pub(crate) use batch::{BatchArgs, Shard};
 pub(crate) use exchange::{C3dPart, ConvertArgs, EventsArgs};
 pub use forces::Outputs;
 pub(crate) use forces::{CalibrateArgs, ForcesArgs};
-pub use named::Options;
 pub(crate) use report::{ReportArgs, ViewArgs};
+pub(crate) use run::RunArgs;
 pub(crate) use session::SessionArgs;
 pub(crate) use stream::{LabAxes, MarkerUnit, StreamArgs, StreamFormat};
 pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneArgs};
@@ -27,8 +30,18 @@ pub(crate) use trial_files::TrialWords;
 pub(crate) use validate::ValidateArgs;
 pub(crate) use values::{Endpoint, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
+pub(crate) use words_of_request::{line, with_options};
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// The folder for the results of a run, if none is given.
+pub(crate) const OUT: &str = "out";
+
+/// The same for JSON.
+pub(crate) fn out() -> PathBuf {
+    OUT.into()
+}
 
 /// Forces behind human walking: motion in, forces out.
 #[derive(Debug, Parser)]
@@ -64,6 +77,8 @@ pub(crate) enum Command {
     Sweep(Box<SweepArgs>),
     /// Compute the forces of a built-in walk; also writes it as a recording to try the other commands on.
     Demo(DemoArgs),
+    /// Run a request: a verb with its files and settings as JSON.
+    Run(RunArgs),
     /// Simulate a scene file: poses, joint efforts, contact forces, energies.
     Simulate(SimulateArgs),
     /// Tune the gains of a figure that walks by its own torques, by pushes.
@@ -94,7 +109,7 @@ pub(crate) struct ReplaceArgs {
 
 /// How to treat an existing file that no earlier run wrote.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Existing {
+pub enum Existing {
     /// It stays, and nothing is written.
     Kept,
     /// It is replaced (`--force`).
@@ -104,6 +119,25 @@ pub(crate) enum Existing {
 impl PrintArgs {
     /// Nothing but errors.
     pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
+}
+
+/// How a request is handled: none of this changes a result.
+#[derive(Debug, Clone, Copy, Default, ClapArgs)]
+pub(crate) struct Handling {
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArgs,
+    #[command(flatten)]
+    pub(crate) check: CheckArgs,
+    #[command(flatten)]
+    pub(crate) print: PrintArgs,
+}
+
+impl Handling {
+    /// Nothing but errors is printed.
+    pub(crate) fn quiet(existing: Existing) -> Handling {
+        let replace = ReplaceArgs { force: existing == Existing::Replaced };
+        Handling { replace, print: PrintArgs::QUIET, ..Handling::default() }
+    }
 }
 
 impl ReplaceArgs {

@@ -1,11 +1,15 @@
 //! Options of `ambulo session`.
 
-use super::{PrintArgs, ReplaceArgs, TrialWords};
+use super::values::jobs;
+use super::{PrintArgs, ReplaceArgs, TrialWords, json};
 use clap::Args as ClapArgs;
+use serde::Deserialize;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples (after `ambulo demo -o demo`, which writes these files):
   ambulo session demo/input -o session -- --mass 75 --height 1.75
   ambulo session demo/input --dry-run
@@ -24,9 +28,11 @@ docs/SESSION.md has the rules and the definitions.")]
 pub(crate) struct SessionArgs {
     /// The folder with the recordings of the visit; or the files: recordings, standing trial, models, tables of forces.
     #[arg(value_name = "DIR|FILES", required = true, num_args = 1..)]
+    #[serde(deserialize_with = "json::sources")]
     pub(crate) source: Vec<PathBuf>,
     /// Folder for the results.
-    #[arg(short, long, value_name = "OUT", default_value = "session")]
+    #[arg(short, long, value_name = "OUT", default_value = SessionArgs::OUTPUT)]
+    #[serde(default = "SessionArgs::output")]
     pub(crate) output: PathBuf,
     /// Folder of an earlier session of the person, to show the changes.
     #[arg(long, value_name = "EARLIER")]
@@ -37,23 +43,36 @@ pub(crate) struct SessionArgs {
     pub(crate) norm: Option<PathBuf>,
     /// Write no name, no path and no date into any file.
     #[arg(long)]
+    #[serde(default)]
     pub(crate) anonymous: bool,
     /// Only print which trials were found, with which files.
     #[arg(long)]
+    #[serde(default)]
     pub(crate) dry_run: bool,
     /// Trials that are computed at the same time [default: the number of processors]; the results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = jobs)]
+    #[serde(default, deserialize_with = "json::jobs")]
     pub(crate) jobs: Option<u32>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
     /// Options of `ambulo forces` for every trial.
     #[arg(last = true, value_name = "OPTIONS")]
+    #[serde(skip)]
     pub(crate) options: Vec<OsString>,
 }
 
 impl SessionArgs {
+    /// The folder for the results, if none is given.
+    const OUTPUT: &'static str = "session";
+
+    fn output() -> PathBuf {
+        SessionArgs::OUTPUT.into()
+    }
+
     /// The options of every trial.
     pub(crate) fn of_trials(&self) -> Result<TrialWords, clap::Error> {
         TrialWords::parse("ambulo session DIR", &self.options)

@@ -182,21 +182,3 @@ impl From<LabAxes> for String {
         axes.to_string()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn axes_of_a_laboratory_become_forward_up_and_right() {
-        let rotated = |axes: &str, lab: [f64; 3]| axes.parse::<LabAxes>().unwrap().world_from_lab() * Vec3::from(lab);
-        assert_eq!(rotated("+x,+y", [1.0, 2.0, 3.0]), Vec3::new(1.0, 2.0, 3.0));
-        // z is up and y forward, so that x is right.
-        assert_eq!(rotated("+y,+z", [1.0, 2.0, 3.0]), Vec3::new(2.0, 3.0, 1.0));
-        assert_eq!(rotated("-y,z", [1.0, 2.0, 3.0]), Vec3::new(-2.0, 3.0, -1.0));
-        assert_eq!("x,-Z".parse::<LabAxes>().unwrap().to_string(), "+x,-z");
-        for wrong in ["x,x", "+y,-y", "x", "w,z", "", "x,y,z"] {
-            assert!(wrong.parse::<LabAxes>().unwrap_err().contains("+y,+z"), "{wrong}");
-        }
-    }
-}

@@ -1,11 +1,14 @@
 //! Options of `ambulo simulate`, `tune`, `info`, `compare` and `reproduce`.
 
-use super::values::{above_zero, force, limit, outputs_of_paper, outputs_of_scene, seconds};
-use super::{CheckArgs, PrintArgs, ReplaceArgs};
+use super::values::{above_zero, force, jobs, limit, outputs_of_paper, outputs_of_scene, seconds};
+use super::{CheckArgs, OUT, PrintArgs, ReplaceArgs, json, out};
 use clap::Args as ClapArgs;
+use serde::Deserialize;
 use std::path::PathBuf;
 
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (in the source folder, which contains examples/):
   ambulo simulate examples/pendulum.toml -o out
   ambulo simulate examples/pile.toml --keep report,energy -o out
@@ -19,16 +22,20 @@ pub(crate) struct SimulateArgs {
     /// The scene (.toml).
     pub(crate) scene: PathBuf,
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = OUT)]
+    #[serde(default = "out")]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_scene())]
+    #[serde(default, deserialize_with = "json::outputs_of_scene")]
     pub(crate) keep: Vec<String>,
     /// Time at which the simulation ends [s] [default: as in the scene].
     #[arg(long, value_name = "S", value_parser = above_zero)]
+    #[serde(default, deserialize_with = "json::duration_s")]
     pub(crate) duration: Option<f64>,
     /// Time step [s] [default: as in the scene].
     #[arg(long, value_name = "S", value_parser = above_zero)]
+    #[serde(default, deserialize_with = "json::duration_s")]
     pub(crate) step: Option<f64>,
     /// Save the final state to a file; an existing one is only overwritten with --force.
     #[arg(long, value_name = "FILE")]
@@ -36,10 +43,13 @@ pub(crate) struct SimulateArgs {
     /// Continue from a state that --save wrote; the results begin with the row after its last one.
     #[arg(long, value_name = "FILE")]
     pub(crate) resume: Option<PathBuf>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) check: CheckArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
@@ -85,7 +95,7 @@ pub(crate) struct TuneArgs {
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) pushes: u32,
     /// Candidates that are tried at the same time [default: the number of processors].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = jobs)]
     pub(crate) jobs: Option<u32>,
     /// Continue a run of the same scene and options that was stopped, or one with fewer evaluations.
     #[arg(long)]
@@ -165,7 +175,7 @@ Exit code: 0 whether or not claims hold; 1 with --check if a claim that the sett
 hold; 2 if nothing could be computed.")]
 pub(crate) struct ReproduceArgs {
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = OUT)]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_paper())]

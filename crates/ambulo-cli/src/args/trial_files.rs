@@ -1,6 +1,8 @@
 //! Options of `ambulo forces` for every trial of a folder: the words after `--`.
 
+use super::OUT;
 use super::forces::{ForcesArgs, Outputs};
+use super::words::quoted;
 use super::words_of_job::words;
 use ambulo::job::Job;
 use ambulo::job::trials::TrialFiles;
@@ -30,13 +32,15 @@ impl TrialWords {
         let place = ["--", "RECORDING"].map(OsString::from);
         let matches = parser.try_get_matches_from_mut(words.iter().cloned().chain(place))?;
         let args = ForcesArgs::from_arg_matches(&matches)?;
-        if args.output.as_os_str() != ForcesArgs::OUTPUT || !args.keep.is_empty() {
+        if args.output.as_os_str() != OUT || !args.keep.is_empty() {
             let message =
                 "trials have no folders of their own: -o and --keep choose nothing after `--`; expected them before";
             return Err(parser.error(ErrorKind::ArgumentConflict, message));
         }
-        let job = Job { recording: None, ..args.job() };
-        Ok(TrialWords { words: words.to_vec(), job, outputs: args.outputs() })
+        let request = args.request();
+        let outputs = request.outputs();
+        let job = Job { recording: None, ..request.job };
+        Ok(TrialWords { words: words.to_vec(), job, outputs })
     }
 
     /// The job of all trials, from a program that has no command line.
@@ -87,49 +91,5 @@ impl TrialWords {
             line.extend(value.into_iter().flat_map(|value| [OsString::from(option), value]));
         }
         line.iter().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" ")
-    }
-}
-
-/// A word as a shell takes it: in quotes if it has other characters than those of usual paths.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%=".contains(c);
-    let mark = if cfg!(windows) { '"' } else { '\'' };
-    match word.chars().all(is_plain) && !word.is_empty() {
-        true => word.to_owned(),
-        false => format!("{mark}{}{mark}", word.replace('\'', if cfg!(windows) { "'" } else { "'\\''" })),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo::study::StatedSize;
-
-    #[test]
-    fn the_command_has_the_files_and_sizes_of_the_trial_once() {
-        let trial = TrialFiles {
-            recording: "set/walk 1.c3d".into(),
-            standing: Some("set/it's.c3d".into()),
-            size: StatedSize { mass_kg: Some(70.5), height_m: None },
-            ..TrialFiles::default()
-        };
-        let words = |words: &[&str]| {
-            TrialWords::parse("ambulo batch", &words.iter().map(OsString::from).collect::<Vec<_>>()).unwrap()
-        };
-        if cfg!(unix) {
-            let command = words(&["--predict", "--mass", "80", "--from=0.5"]).command(&trial, "page");
-            let expected = r"ambulo forces 'set/walk 1.c3d' --predict --from=0.5 --static 'set/it'\''s.c3d' --mass 70.5 --output page";
-            assert_eq!(command, expected);
-            let command = words(&["--static=other.c3d", "--mass=80"]).command(&trial, "page");
-            assert_eq!(command, "ambulo forces 'set/walk 1.c3d' --static=other.c3d --mass 70.5 --output page");
-        }
-    }
-
-    #[test]
-    fn the_folder_of_a_trial_is_not_chosen_after_the_dashes() {
-        for words in [["-o", "there"], ["--keep", "grf"]] {
-            let refused = TrialWords::parse("ambulo batch", &words.map(OsString::from)).unwrap_err();
-            assert!(refused.to_string().contains("ambulo batch [OPTIONS] -- OPTIONS"), "{refused}");
-        }
     }
 }

@@ -1,15 +1,19 @@
 //! Options of `ambulo validate`.
 
-use super::values::{Figure, number, segments};
-use super::{PrintArgs, ReplaceArgs};
+use super::values::{Figure, jobs, number, segments};
+use super::{PrintArgs, ReplaceArgs, json};
+use ambulo::job::json as text;
 use ambulo::job::trials::TrialFiles;
 use ambulo::job::{Job, Processing, ending};
 use ambulo::study::{GroundSettings, StatedSize};
 use clap::Args as ClapArgs;
 use clap::builder::TypedValueParser;
+use serde::Deserialize;
 use std::path::PathBuf;
 
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example (after `ambulo demo -o demo`, which writes these files):
   ambulo validate demo/input --mass 75 --height 1.75 -o validation
   ambulo validate demo/input --dry-run
@@ -39,29 +43,44 @@ pub(crate) struct ValidateArgs {
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments().map(Figure))]
+    #[serde(default, deserialize_with = "text::text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub(crate) figure: Figure,
     /// The marker set: a name from docs/MARKERS.md or a .toml [default: recognised from the marker names].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) markers: Option<String>,
     /// Judge tracking as well (`ambulo forces --track`): one to three seconds per trial.
     #[arg(long)]
+    #[serde(default)]
     pub(crate) track: bool,
     /// Only print which files are judged, with their settings, and which are not.
     #[arg(long)]
+    #[serde(default)]
     pub(crate) dry_run: bool,
     /// Trials that are computed at the same time [default: the number of processors]; the results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = jobs)]
+    #[serde(default, deserialize_with = "json::jobs")]
     pub(crate) jobs: Option<u32>,
     /// Folder for the results.
-    #[arg(short, long, value_name = "OUT", default_value = "validation")]
+    #[arg(short, long, value_name = "OUT", default_value = ValidateArgs::OUTPUT)]
+    #[serde(default = "ValidateArgs::output")]
     pub(crate) output: PathBuf,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
 impl ValidateArgs {
+    /// The folder for the results, if none is given.
+    const OUTPUT: &'static str = "validation";
+
+    fn output() -> PathBuf {
+        ValidateArgs::OUTPUT.into()
+    }
+
     /// The job of a trial: its ground forces are predicted.
     pub(crate) fn job_of(&self, files: &TrialFiles) -> Job {
         let has_markers = matches!(ending(&files.recording).as_str(), "c3d" | "trc");

@@ -1,17 +1,25 @@
 //! Parsers of option values.
 
-use ambulo::model::anthropometry::SegmentTable;
+use ambulo::job::Job;
+use ambulo::model::anthropometry::{SegmentTable, UnknownTable};
 use ambulo::motion::filter::MAX_ORDER;
 use ambulo::optimal::{Load, LoadPlace};
 use ambulo_results::Keep;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use serde::Deserialize;
 use std::fmt;
 use std::net::{Ipv4Addr, SocketAddr};
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// Names of the outputs of a recording or a synthetic walk; all but `recording` unless it is the demo.
+pub(super) fn names_of_run() -> impl Iterator<Item = &'static str> {
+    Keep::OF_RUNS.into_iter().filter(|name| *name != "recording")
+}
+
+/// One of [`names_of_run`].
 pub(super) fn outputs_of_run() -> PossibleValuesParser {
-    PossibleValuesParser::new(Keep::OF_RUNS.into_iter().filter(|name| *name != "recording"))
+    PossibleValuesParser::new(names_of_run())
 }
 
 /// Names of the outputs of the demo.
@@ -52,6 +60,19 @@ pub(super) fn segments() -> impl TypedValueParser<Value = SegmentTable> {
 #[derive(Clone, Copy)]
 pub(crate) struct Figure(pub(crate) SegmentTable);
 
+impl Default for Figure {
+    fn default() -> Figure {
+        Figure(Job::SEGMENTS)
+    }
+}
+
+impl FromStr for Figure {
+    type Err = UnknownTable;
+    fn from_str(name: &str) -> Result<Figure, UnknownTable> {
+        name.parse().map(Figure)
+    }
+}
+
 impl fmt::Debug for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.name().fmt(f)
@@ -66,6 +87,26 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
 /// Any whole number; the library checks its range.
 pub(super) fn whole_number(text: &str) -> Result<usize, String> {
     text.trim().parse().map_err(|_| "expected a whole number, such as 3".into())
+}
+
+/// Trials or candidates that are computed at the same time.
+pub(super) fn jobs(text: &str) -> Result<u32, String> {
+    count(text, 1..=1024)
+}
+
+/// Trials in one file of a batch.
+pub(super) fn part(text: &str) -> Result<u32, String> {
+    count(text, 1..=100_000)
+}
+
+/// A number of trials.
+pub(super) fn from_one(text: &str) -> Result<u32, String> {
+    count(text, 1..=u32::MAX)
+}
+
+fn count(text: &str, range: RangeInclusive<u32>) -> Result<u32, String> {
+    let expected = || format!("expected a whole number from {} to {}", range.start(), range.end());
+    text.trim().parse().ok().filter(|count| range.contains(count)).ok_or_else(expected)
 }
 
 pub(super) fn order(text: &str) -> Result<usize, String> {
@@ -123,14 +164,26 @@ pub(crate) struct TimedValue {
 }
 
 /// TIME:VALUE or TIME:VALUE:DURATION; the library checks the ranges.
-pub(super) fn timed_value(text: &str) -> Result<TimedValue, String> {
-    let parts: Result<Vec<f64>, _> = text.split(':').map(|part| part.trim().parse()).collect();
-    match parts.as_deref() {
-        Ok([time_s, value]) => Ok(TimedValue { time_s: *time_s, value: *value, duration_s: None }),
-        Ok([time_s, value, duration_s]) => {
-            Ok(TimedValue { time_s: *time_s, value: *value, duration_s: Some(*duration_s) })
+impl FromStr for TimedValue {
+    type Err = String;
+    fn from_str(text: &str) -> Result<TimedValue, String> {
+        let parts: Result<Vec<f64>, _> = text.split(':').map(|part| part.trim().parse()).collect();
+        match parts.as_deref() {
+            Ok([time_s, value]) => Ok(TimedValue { time_s: *time_s, value: *value, duration_s: None }),
+            Ok([time_s, value, duration_s]) => {
+                Ok(TimedValue { time_s: *time_s, value: *value, duration_s: Some(*duration_s) })
+            }
+            _ => {
+                Err("expected TIME:VALUE or TIME:VALUE:DURATION with times in seconds, such as 3:1.6 or 3:1.6:2".into())
+            }
         }
-        _ => Err("expected TIME:VALUE or TIME:VALUE:DURATION with times in seconds, such as 3:1.6 or 3:1.6:2".into()),
+    }
+}
+
+impl fmt::Display for TimedValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.time_s, self.value)?;
+        self.duration_s.map_or(Ok(()), |duration_s| write!(f, ":{duration_s}"))
     }
 }
 
@@ -143,8 +196,49 @@ pub(super) fn load(text: &str) -> Result<Load, String> {
     Ok(Load { mass, place })
 }
 
+/// Values of a sweep in JSON.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, a list of numbers or text, such as \"0.6:2.0:0.2\"")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(super) enum Written {
+    Number(f64),
+    Numbers(Vec<f64>),
+    Text(String),
+}
+
+impl Written {
+    /// As in the command line.
+    fn text(&self) -> String {
+        match self {
+            Written::Number(number) => number.to_string(),
+            Written::Numbers(numbers) => numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(","),
+            Written::Text(text) => text.clone(),
+        }
+    }
+
+    fn parsed<T: FromStr<Err = String>>(&self) -> Result<T, String> {
+        let text = self.text();
+        text.parse().map_err(|error| format!("found `{text}`; {error}"))
+    }
+}
+
+impl TryFrom<Written> for Values {
+    type Error = String;
+    fn try_from(written: Written) -> Result<Values, String> {
+        written.parsed()
+    }
+}
+
+impl TryFrom<Written> for Loads {
+    type Error = String;
+    fn try_from(written: Written) -> Result<Loads, String> {
+        written.parsed()
+    }
+}
+
 /// Values of a sweep.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
 pub(crate) struct Values(pub(crate) Vec<f64>);
 
 /// A longer list is a mistake.
@@ -177,7 +271,8 @@ impl FromStr for Values {
 }
 
 /// Loads of a sweep, and where they are carried.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
 pub(crate) struct Loads {
     pub(crate) masses: Values,
     pub(crate) place: LoadPlace,
@@ -237,19 +332,4 @@ pub(super) fn local_address(text: &str) -> Result<SocketAddr, String> {
 /// A time in milliseconds; the library checks its range.
 pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number of milliseconds, such as 70".into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn without_an_address_only_this_computer_can_connect() {
-        assert_eq!(endpoint("tcp:5005"), Ok(Endpoint::Tcp(SocketAddr::from(([127, 0, 0, 1], 5005)))));
-        assert_eq!(endpoint("udp:0.0.0.0:7"), Ok(Endpoint::Udp(SocketAddr::from(([0, 0, 0, 0], 7)))));
-        assert_eq!(endpoint("stdin"), Ok(Endpoint::Stdin));
-        for wrong in ["tcp", "tcp:", "tcp:70000", "serial:5", "udp:host:5", ""] {
-            assert!(endpoint(wrong).unwrap_err().contains("udp:PORT"), "{wrong}");
-        }
-    }
 }

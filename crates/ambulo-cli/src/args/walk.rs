@@ -1,16 +1,21 @@
 //! Options of `ambulo walk` and `ambulo demo`.
 
+use super::forces::AngleConvention;
 use super::values::{
-    Loads, TimedValue, Values, load, number, outputs_of_demo, outputs_of_run, outputs_of_sweep, timed_value, weakness,
-    whole_number,
+    Loads, TimedValue, Values, load, number, outputs_of_demo, outputs_of_run, outputs_of_sweep, weakness, whole_number,
 };
-use super::{CheckArgs, PrintArgs, ReplaceArgs};
+use super::{CheckArgs, OUT, PrintArgs, ReplaceArgs, json};
+use ambulo::job::Job;
+use ambulo::job::json as text;
 use ambulo::optimal::Load;
 use ambulo::simulation::synthetic::SyntheticMode;
 use clap::{Args as ClapArgs, ValueEnum};
+use serde::Deserialize;
 use std::path::PathBuf;
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Example:
   ambulo demo -o demo
 
@@ -18,20 +23,26 @@ The same as `ambulo walk -o demo`. The walk is also written to DIR/input as a re
 coordinates), which the examples of the other commands use (`ambulo forces --help`).")]
 pub(crate) struct DemoArgs {
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = OUT)]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_demo())]
+    #[serde(deserialize_with = "json::outputs_of_demo")]
     pub(crate) keep: Vec<String>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) check: CheckArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples:
   ambulo walk -o out
   ambulo walk --speed 1.0 --figure de-leva-female --mass 60 --height 1.65 -o out
@@ -76,20 +87,23 @@ pub(crate) struct WalkArgs {
     pub(crate) mode: Option<WalkMode>,
     /// Walk in the sagittal plane: the same as `--mode corrected`.
     #[arg(long, conflicts_with = "mode")]
+    #[serde(skip)]
     pub(crate) planar: bool,
     /// Reference of the pelvis and hip angles in clinical.csv and the report: `clinical`, the line through the iliac
     /// spines; `opensim`, the model's own axes.
-    #[arg(long, value_enum, default_value_t = super::forces::AngleConvention::Clinical)]
-    pub(crate) convention: super::forces::AngleConvention,
+    #[arg(long, value_enum, default_value_t = AngleConvention::default())]
+    pub(crate) convention: AngleConvention,
     /// Replay torques without feedback, in the mode paper: a torques.toml of `ambulo reproduce` [--gait then defaults
     /// to standard].
     #[arg(long, value_name = "FILE")]
     pub(crate) torques: Option<PathBuf>,
     /// Whole gait cycles per foot, 1 to 1000.
-    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole_number)]
+    #[arg(long, value_name = "N", default_value_t = WalkArgs::CYCLES, allow_negative_numbers = true,
+        value_parser = whole_number)]
     pub(crate) cycles: usize,
     /// Frame rate of the results, 20 to 5000 Hz.
-    #[arg(long, value_name = "HZ", default_value_t = 100.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "HZ", default_value_t = WalkArgs::RATE_HZ, allow_negative_numbers = true,
+        value_parser = number)]
     pub(crate) rate: f64,
     /// Only print the state machines of the gait and each change of their states: time, machine, old and new state, and
     /// the condition that was true.
@@ -103,16 +117,22 @@ pub(crate) struct WalkArgs {
     pub(crate) output: Option<PathBuf>,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_run())]
+    #[serde(deserialize_with = "json::outputs_of_run")]
     pub(crate) keep: Vec<String>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) check: CheckArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[command(after_help = "Examples:
   ambulo sweep --speed 0.8:1.6:0.2 --mass 60,80,100 -o sweep
   ambulo sweep --speed 1.2 --slope=-8,0,8 --load 0,15 -o hills
@@ -131,21 +151,28 @@ Exit code: 0 if a walk was found, 2 if none was; with --check, 1 if a walk was n
 pub(crate) struct SweepArgs {
     /// Walking speeds [m/s] [default: free speed].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) speed: Option<Values>,
     /// Body masses [kg] [default: 75, de-leva-female 60, faure-1997 80].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) mass: Option<Values>,
     /// Statures [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) height: Option<Values>,
     /// Slopes of the ground [%], uphill is positive; implies predicted walks.
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) slope: Option<Values>,
     /// Carried loads [kg]: on the back, half in each hand, or at the pelvis [default: back]; implies predicted walks.
     #[arg(long, value_name = "LIST[:back|hands|pelvis]", allow_hyphen_values = true)]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::values::Written>"))]
     pub(crate) load: Option<Loads>,
     /// Remaining share of a joint's strength in all walks, such as ankle=0.6; repeatable; implies predicted walks.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
+    #[serde(deserialize_with = "json::weaknesses")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints in all walks, springs or given moments: .toml (docs/OPTIMAL.md); implies predicted walks.
     #[arg(long, value_name = "FILE")]
@@ -154,24 +181,30 @@ pub(crate) struct SweepArgs {
     #[arg(long)]
     pub(crate) predict: bool,
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
+    #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name())]
     pub(crate) figure: String,
     /// Folder for the results.
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    #[arg(short, long, value_name = "DIR", default_value = OUT)]
     pub(crate) output: PathBuf,
     /// Outputs that are written, separated by commas; a table is written if it or `tables` is listed [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = outputs_of_sweep())]
+    #[serde(deserialize_with = "json::outputs_of_sweep")]
     pub(crate) keep: Vec<String>,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) replace: ReplaceArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) check: CheckArgs,
+    #[serde(skip)]
     #[command(flatten)]
     pub(crate) print: PrintArgs,
 }
 
 // The gait to synthesise.
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, Default, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct GaitArgs {
     /// Name of a gait (standard, long, short, goose, parade, slow, free, fast) or a gait file (docs/GAITS.md) [default:
     /// free].
@@ -188,13 +221,19 @@ pub(crate) struct GaitArgs {
     pub(crate) cadence: Option<f64>,
     /// Change the speed on the way: at TIME [s] to SPEED [m/s], 0 to stand still, within DURATION [s]; repeatable
     /// [default: two steps].
-    #[arg(long, value_name = "TIME:SPEED[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    #[arg(long, value_name = "TIME:SPEED[:DURATION]", allow_negative_numbers = true)]
+    #[serde(deserialize_with = "text::each")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) speed_change: Vec<TimedValue>,
     /// Change the step length on the way, as with --speed-change [m].
-    #[arg(long, value_name = "TIME:LENGTH[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    #[arg(long, value_name = "TIME:LENGTH[:DURATION]", allow_negative_numbers = true)]
+    #[serde(deserialize_with = "text::each")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) step_length_change: Vec<TimedValue>,
     /// Change the cadence on the way, as with --speed-change [steps/min].
-    #[arg(long, value_name = "TIME:CADENCE[:DURATION]", allow_negative_numbers = true, value_parser = timed_value)]
+    #[arg(long, value_name = "TIME:CADENCE[:DURATION]", allow_negative_numbers = true)]
+    #[serde(deserialize_with = "text::each")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) cadence_change: Vec<TimedValue>,
     /// Foot clearance as a multiple of the natural one, 0.1 to 10 [default: the gait's].
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = number)]
@@ -205,7 +244,9 @@ pub(crate) struct GaitArgs {
 }
 
 // Conditions of a predicted walk.
-#[derive(Debug, Clone, Default, PartialEq, ClapArgs)]
+#[derive(Debug, Clone, Default, PartialEq, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct ConditionArgs {
     /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply
     /// `--mode predict`.
@@ -213,9 +254,13 @@ pub(crate) struct ConditionArgs {
     pub(crate) slope: Option<f64>,
     /// Carried load: on the back, half in each hand, or at the pelvis [default: back].
     #[arg(long, value_name = "KG[:back|hands|pelvis]", allow_negative_numbers = true, value_parser = load)]
+    #[serde(deserialize_with = "json::load")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<text::TextOrNumber>"))]
     pub(crate) load: Option<Load>,
     /// Remaining share of a joint's strength, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable.
     #[arg(long, value_name = "JOINT=SHARE", value_parser = weakness)]
+    #[serde(deserialize_with = "json::weaknesses")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) weak: Vec<(String, f64)>,
     /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md).
     #[arg(long, value_name = "FILE")]
@@ -229,10 +274,12 @@ pub(crate) struct ConditionArgs {
 }
 
 // The body that walks.
-#[derive(Debug, Clone, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct FigureArgs {
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
-    #[arg(long, value_name = "NAME", default_value = "de-leva-male")]
+    #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name())]
     pub(crate) figure: String,
     /// Body mass [kg] [default: 75, de-leva-female 60, faure-1997 80].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
@@ -245,8 +292,77 @@ pub(crate) struct FigureArgs {
     pub(crate) no_toe_joint: bool,
 }
 
+impl WalkArgs {
+    /// Whole gait cycles per foot, if none are given.
+    const CYCLES: usize = 3;
+    /// Frame rate of the results [Hz], if none is given.
+    const RATE_HZ: f64 = 100.0;
+}
+
+impl Default for DemoArgs {
+    fn default() -> DemoArgs {
+        let (keep, replace, check, print) = Default::default();
+        DemoArgs { output: OUT.into(), keep, replace, check, print }
+    }
+}
+
+impl Default for WalkArgs {
+    fn default() -> WalkArgs {
+        let (replace, check, print) = Default::default();
+        WalkArgs {
+            gait: GaitArgs::default(),
+            figure: FigureArgs::default(),
+            conditions: ConditionArgs::default(),
+            mode: None,
+            planar: false,
+            convention: AngleConvention::default(),
+            torques: None,
+            cycles: WalkArgs::CYCLES,
+            rate: WalkArgs::RATE_HZ,
+            states: false,
+            thresholds: None,
+            output: None,
+            keep: Vec::new(),
+            replace,
+            check,
+            print,
+        }
+    }
+}
+
+impl Default for SweepArgs {
+    fn default() -> SweepArgs {
+        let (speed, mass, height, slope) = Default::default();
+        let (replace, check, print) = Default::default();
+        SweepArgs {
+            speed,
+            mass,
+            height,
+            slope,
+            load: None,
+            weak: Vec::new(),
+            device: None,
+            predict: false,
+            figure: Job::SEGMENTS.name().to_owned(),
+            output: OUT.into(),
+            keep: Vec::new(),
+            replace,
+            check,
+            print,
+        }
+    }
+}
+
+impl Default for FigureArgs {
+    fn default() -> FigureArgs {
+        FigureArgs { figure: Job::SEGMENTS.name().to_owned(), mass: None, height: None, no_toe_joint: false }
+    }
+}
+
 /// How a walk is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) enum WalkMode {
     /// 3-D walk on soft shoes, near normative curves.
     Optimal,

@@ -2,29 +2,13 @@
 //! trial.
 
 use super::forces::Outputs;
+use super::words::Words;
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, Processing};
 use ambulo::study::GroundSettings;
 use ambulo_results::Convention;
 use std::ffi::OsString;
 use std::path::PathBuf;
-
-/// Words, each option and each value in one of its own.
-struct Words(Vec<OsString>);
-
-impl Words {
-    fn value(&mut self, option: &str, value: Option<impl ToString>) {
-        self.0.extend(value.into_iter().flat_map(|value| [option.into(), value.to_string().into()]));
-    }
-
-    fn path(&mut self, option: &str, path: Option<&PathBuf>) {
-        self.0.extend(path.into_iter().flat_map(|path| [option.into(), path.clone().into_os_string()]));
-    }
-
-    fn flag(&mut self, option: &str, is_given: bool) {
-        self.0.extend(is_given.then(|| option.into()));
-    }
-}
 
 /// The words of everything that differs from the defaults.
 pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {

@@ -1,30 +1,36 @@
 //! `ambulo calibrate`: what force plates show about the predicted ground forces of a person.
 
 use super::forces;
-use crate::args::{CalibrateArgs, Outputs, PrintArgs};
+use crate::args::{Handling, Outputs, PrintArgs};
 use crate::caller::Caller;
+use crate::request::CalibrateRequest;
 use crate::{Completion, files, printer};
 use ambulo::ground::predict::PersonalErrors;
-use ambulo::job::Job;
-use ambulo::study::{Outcome, personal_errors};
+use ambulo::job::{Job, Processing};
+use ambulo::study::{GroundSettings, Outcome, personal_errors};
 use anyhow::{Error, Result};
-use std::path::PathBuf;
+use std::path::Path;
 
-pub(crate) fn run(args: &CalibrateArgs) -> Result<Completion> {
-    let inputs: Vec<_> = args.trials.iter().chain(&args.subject.still).chain(&args.model).cloned().collect();
-    files::check_target(&args.output, &inputs, args.replace.existing())?;
-    let person = compute(&args.trials, &args.job(), args.print, &Caller::default())?;
-    files::write(&args.output, person.to_toml().as_bytes())?;
-    printer::calibrate(&person, args.trials.len(), &args.output, args.print)?;
+pub(crate) fn run(request: &CalibrateRequest, how: Handling) -> Result<Completion> {
+    let CalibrateRequest { trials, job, output } = request;
+    let model = job.model_file().map(Path::to_path_buf);
+    let inputs: Vec<_> = trials.iter().chain(&job.standing).chain(&model).cloned().collect();
+    files::check_target(output, &inputs, how.replace.existing())?;
+    let person = compute(request, how.print, &Caller::default())?;
+    files::write(output, person.to_toml().as_bytes())?;
+    printer::calibrate(&person, trials.len(), output, how.print)?;
     Ok(Completion::Passed)
 }
 
 /// The calibration that the trials show.
-pub(crate) fn compute(trials: &[PathBuf], of_all: &Job, print: PrintArgs, caller: &Caller) -> Result<PersonalErrors> {
+pub(crate) fn compute(request: &CalibrateRequest, print: PrintArgs, caller: &Caller) -> Result<PersonalErrors> {
+    let CalibrateRequest { trials, job: of_all, .. } = request;
+    of_all.check()?;
+    let settings = Processing { ground: GroundSettings::Predicted, ..of_all.settings.clone() };
     let mut outcomes: Vec<Outcome> = Vec::new();
     for trial in trials {
         printer::progress(&format!("predicting {}", trial.display()), print);
-        let job = Job { recording: Some(trial.clone()), ..of_all.clone() };
+        let job = Job { recording: Some(trial.clone()), settings: settings.clone(), ..of_all.clone() };
         outcomes.push(forces::compute(&job, Outputs::default(), caller)?.into_outcome());
     }
     personal_errors(&outcomes).map_err(|error| {

@@ -12,6 +12,7 @@ pub(crate) mod report;
 pub(crate) mod reproduce;
 mod result_folder;
 mod results;
+pub(crate) mod run;
 mod run_files;
 pub(crate) mod session;
 mod side_by_side;

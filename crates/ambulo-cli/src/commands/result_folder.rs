@@ -3,8 +3,7 @@
 use crate::files;
 use crate::record::Record;
 use crate::replacement::recover;
-use ambulo_report::SESSION_PAGE;
-use ambulo_results::{CLAIMS, PAGE, SUMMARY, TIMINGS, Timings, WALKS};
+use ambulo_results::{CLAIMS, PAGE, SESSION_PAGE, SUMMARY, TIMINGS, Timings, WALKS};
 use anyhow::{Error, Result, bail};
 use std::collections::BTreeMap;
 use std::fs;

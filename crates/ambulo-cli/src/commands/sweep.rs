@@ -1,7 +1,7 @@
 //! `ambulo sweep`: walks at many speeds, of many bodies, on slopes and with loads.
 
 use super::side_by_side::{processors, side_by_side};
-use super::walk::{read_devices, source};
+use super::walk::{read_devices, segments, source};
 use crate::args::{SweepArgs, Values};
 use crate::caller::Caller;
 use crate::record::run_id;
@@ -16,7 +16,7 @@ use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, predic
 use ambulo::study::{self, Settings};
 use ambulo_report::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 use ambulo_results::{Keep, OutputFile, summary_json};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -151,7 +151,7 @@ struct Sweep {
 impl Sweep {
     fn new(args: &SweepArgs, read: &mut Vec<PathBuf>) -> Result<Sweep> {
         let gait = Gait::named("free")?;
-        let build = Build::usual(args.figure.parse().context("--figure")?);
+        let build = Build::usual(segments(&args.figure)?);
         let devices: Vec<Device> = read_devices(args.device.as_deref(), read)?;
         let conditions = WalkConditions { strengths: args.weak.clone(), devices, ..WalkConditions::default() };
         let is_predicted =

@@ -6,8 +6,7 @@ use crate::args::Existing;
 use crate::args::ViewArgs;
 use crate::{Completion, printer};
 use ambulo::job::ending;
-use ambulo_report::SESSION_PAGE;
-use ambulo_results::PAGE;
+use ambulo_results::{PAGE, SESSION_PAGE};
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
 

@@ -5,12 +5,13 @@ use super::stopwatch::Stopwatch;
 use crate::args::{FigureArgs, GaitArgs, TimedValue, WalkArgs, WalkMode};
 use crate::caller::Caller;
 use crate::replacement::ResultTarget;
+use crate::request::WrongFields;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
 use ambulo::gait::machine::StateChange;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
-use ambulo::model::anthropometry::{Build, BuildError};
+use ambulo::model::anthropometry::{Build, BuildError, SegmentTable, UnknownTable};
 use ambulo::motion::RecordedTable;
 use ambulo::numerics::NaturalSpline;
 use ambulo::optimal::{Device, WalkConditions};
@@ -86,7 +87,8 @@ fn walked(
     let mode = match (&torques, asked_mode(args, &walk.conditions)?) {
         (Some(_), None | Some(SyntheticMode::Paper)) => SyntheticMode::Paper,
         (Some(_), Some(mode)) => {
-            bail!("--torques: found the mode {mode}; expected the mode paper, in which the torques were computed")
+            let what = format!("found the mode {mode}; expected the mode paper, in which the torques were computed");
+            return Err(WrongFields::new(&["torques"], what).into());
         }
         (None, mode) => mode.map_or_else(|| walk.own_mode(), Ok)?,
     };
@@ -122,10 +124,13 @@ fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<Syn
     }
     match asked {
         None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
-        Some(mode) => bail!(
-            "--slope, --load, --weak, --device, --step-width, --asymmetric: found the mode {mode}; expected the mode \
-             predict, because the other modes do not support them"
-        ),
+        Some(mode) => {
+            let fields = &["slope", "load", "weak", "device", "step_width", "asymmetric"];
+            let what = format!(
+                "found the mode {mode}; expected the mode predict, because the other modes do not support them"
+            );
+            Err(WrongFields::new(fields, what).into())
+        }
     }
 }
 
@@ -295,8 +300,13 @@ fn input(walk_settings: &SyntheticWalkSettings<'_>) -> Input {
     }
 }
 
+/// The table of segment masses of a name.
+pub(super) fn segments(name: &str) -> Result<SegmentTable> {
+    name.parse().map_err(|error: UnknownTable| WrongFields::new(&["figure"], error).into())
+}
+
 fn build(args: &FigureArgs) -> Result<Build> {
-    let usual = Build::usual(args.figure.parse().context("--figure")?);
+    let usual = Build::usual(segments(&args.figure)?);
     let (mass, height) = (args.mass.unwrap_or(usual.mass), args.height.unwrap_or(usual.height));
     let build = Build { mass, height, toe_joint: !args.no_toe_joint, ..usual };
     // Reject an impossible size before anything is computed.
@@ -321,7 +331,7 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
         };
         Gait::from_toml_with(&text, &mut column).with_context(shown)?
     } else {
-        Gait::named(name).context("--gait")?
+        Gait::named(name).map_err(|error| WrongFields::new(&["gait"], error))?
     };
     if let Some(word) = &args.style {
         gait = gait.in_style(style(word)?);
@@ -331,8 +341,8 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
     if let (Some(machine), false) = (gait.machine_of_the_pace(), changes.is_empty()) {
         let name = &machine.name;
         bail!(
-            "found changes of pace on the command line; expected none, because the machine `{name}` of the gait drives \
-             the pace"
+            "found changes of pace besides those of the gait; expected none, because the machine `{name}` of the gait \
+             drives the pace"
         );
     }
     gait.pace_changes.extend(changes);
@@ -367,19 +377,20 @@ fn style_for_correction(gait: Gait, name: &str, args: &GaitArgs) -> Gait {
 fn style(word: &str) -> Result<Style> {
     let known = Style::WORDS.into_iter().find(|(name, _)| *name == word);
     let names = Style::WORDS.map(|(name, _)| name).join(", ");
-    known.map(|(_, style)| style).with_context(|| format!("--style: found `{word}`; expected one of {names}"))
+    let wrong = || WrongFields::new(&["style"], format!("found `{word}`; expected one of {names}")).into();
+    known.map(|(_, style)| style).ok_or_else(wrong)
 }
 
 /// The changes of pace of the options. Changes of different quantities at the same time are one change.
 fn pace_changes(args: &GaitArgs) -> Result<Vec<PaceChange>> {
     type Quantity = fn(&mut PaceChange) -> &mut Option<f64>;
-    let options: [(&str, &[TimedValue], f64, Quantity); 3] = [
-        ("--speed-change", &args.speed_change, 1.0, |change| &mut change.speed),
-        ("--step-length-change", &args.step_length_change, 1.0, |change| &mut change.step_length),
-        ("--cadence-change", &args.cadence_change, 1.0 / 60.0, |change| &mut change.step_frequency),
+    let options: [(&'static [&'static str], &[TimedValue], f64, Quantity); 3] = [
+        (&["speed_change"], &args.speed_change, 1.0, |change| &mut change.speed),
+        (&["step_length_change"], &args.step_length_change, 1.0, |change| &mut change.step_length),
+        (&["cadence_change"], &args.cadence_change, 1.0 / 60.0, |change| &mut change.step_frequency),
     ];
     let mut changes: Vec<PaceChange> = Vec::new();
-    for (option, values, unit, quantity) in options {
+    for (field, values, unit, quantity) in options {
         for TimedValue { time_s, value, duration_s } in values.iter().copied() {
             let number = match changes.iter().position(|c| (c.start_s, c.duration_s) == (time_s, duration_s)) {
                 Some(number) => number,
@@ -390,7 +401,7 @@ fn pace_changes(args: &GaitArgs) -> Result<Vec<PaceChange>> {
             };
             let change = &mut changes[number];
             if quantity(change).replace(value * unit).is_some() {
-                bail!("{option}: found two changes at {time_s} s; expected one");
+                return Err(WrongFields::new(field, format!("found two changes at {time_s} s; expected one")).into());
             }
         }
     }

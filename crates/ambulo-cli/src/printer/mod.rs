@@ -62,6 +62,11 @@ fn visible(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// A line of its own.
+pub(crate) fn line(text: &str) -> Result<()> {
+    print_line(text)
+}
+
 /// Printed by `ambulo` alone.
 pub(crate) fn guide() -> Result<()> {
     print_line(&format!(
@@ -76,6 +81,7 @@ pub(crate) fn guide() -> Result<()> {
   ambulo session DIR                                         the trials of a visit on one page, compared with healthy people
   ambulo validate DIR                                        judge predicted ground forces on a folder of trials on plates
   ambulo stream MODEL.osim --rate 200 --input tcp:5005       forces while the motion arrives
+  ambulo run REQUEST.json                                    one of these verbs with its files and settings in JSON
   ambulo simulate SCENE.toml                                 simulate a scene
   ambulo tune SCENE.toml                                     tune the gains of a figure that walks by its own torques
   ambulo reproduce -o paper                                  recompute the claims of the 1997 paper

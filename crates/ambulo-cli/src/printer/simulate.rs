@@ -26,11 +26,11 @@ pub(crate) fn simulate(
     let [from, to] = summary.window_s;
     let each_us = 1e3 * timing_ms.get("simulate").copied().unwrap_or(0.0) / summary.steps.max(1) as f64;
     print_line(&format!(
-        "  time        {from} to {to} s, {} steps of {} s ({}), {each_us:.1} us each",
-        summary.steps,
-        summary.step_s,
-        summary.integrator.word()
+        "  time        {from} to {to} s, {} steps of {} s, {each_us:.1} us each",
+        summary.steps, summary.step_s,
     ))?;
+    let why = summary.integrator_reason.map_or(String::new(), |reason| format!(", {}", reason.explanation()));
+    print_line(&format!("  integrator  {}{why}", summary.integrator.word()))?;
     print_line(&format!(
         "  energy      {:.6} J at the start, {:.6} J at the end; between {:.6} and {:.6} J",
         energy.start_j, energy.end_j, energy.lowest_j, energy.highest_j

@@ -8,22 +8,14 @@ use super::{C3d, Channel, Event, Storage};
 /// Largest number of a header word.
 const WORD: i64 = 65535;
 
-/// The blocks where the data begin.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct DataBlocks {
-    /// Points and analog samples.
-    pub(super) points: u16,
-    /// Rotations; beyond the points.
-    pub(super) rotations: u16,
-}
-
-/// The record's parameters, updated from its other fields.
-pub(super) fn parameters(record: &C3d, blocks: DataBlocks) -> Parameters {
+/// The record's parameters, updated from its other fields, with the blocks where its points (with analog samples) and
+/// its rotations begin.
+pub(super) fn parameters(record: &C3d, [of_points, of_rotations]: [u16; 2]) -> Parameters {
     let mut stated = Stated { parameters: record.parameters.clone() };
-    stated.points(record, blocks.points);
+    stated.points(record, of_points);
     stated.frames(record);
     stated.channels(record);
-    stated.rotations(record, blocks.rotations);
+    stated.rotations(record, of_rotations);
     stated.events(record);
     stated.parameters
 }

@@ -22,11 +22,10 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     check(record)?;
     let processor = record.encoding.processor;
     // The length of the section does not depend on the numbers of the blocks.
-    let length = section_write::write(&stated::parameters(record, stated::DataBlocks::default()), processor)?.len();
+    let length = section_write::write(&stated::parameters(record, [0, 0]), processor)?.len();
     let blocks = data_blocks(usize::from(PARAMETER_BLOCK) + length / BLOCK, record)?;
-    let data_block = blocks.points;
     let section = section_write::write(&stated::parameters(record, blocks), processor)?;
-    let mut bytes = header(record, data_block)?;
+    let mut bytes = header(record, blocks[0])?;
     bytes.extend(section);
     write_frames(record, &mut bytes)?;
     // Of more frames than the header can count, ezc3d 1.7.2 reads as many as the file contains, so nothing may follow
@@ -38,8 +37,8 @@ pub(super) fn write(record: &C3d) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// The blocks of a record whose parameters end before the block `first`.
-fn data_blocks(first: usize, record: &C3d) -> Result<stated::DataBlocks, Error> {
+/// The blocks where points and rotations begin in a record whose parameters end before the block `first`.
+fn data_blocks(first: usize, record: &C3d) -> Result<[u16; 2], Error> {
     let width = match record.encoding.storage {
         Storage::Integer => 2,
         Storage::Real => 4,
@@ -51,7 +50,7 @@ fn data_blocks(first: usize, record: &C3d) -> Result<stated::DataBlocks, Error> 
         let expected = "data that begin in the first 65535 blocks of 512 bytes";
         u16::try_from(block).map_err(|_| invalid(format!("data that begin in block {block}"), expected))
     };
-    Ok(stated::DataBlocks { points: block(first)?, rotations: block(rotations)? })
+    Ok([block(first)?, block(rotations)?])
 }
 
 fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {

@@ -51,8 +51,9 @@ pub struct Mvnx {
     pub joints: Vec<MvnxJoint>,
     /// Names of the contacts of the feet, in the order of the flags.
     pub contacts: Vec<String>,
-    /// Poses of the calibration.
-    pub calibration: Vec<CalibrationPose>,
+    /// Poses of the calibration: kind (`identity`, `tpose`, `npose`, `tpose-isb` or `npose-isb`), and the pose of each
+    /// segment.
+    pub calibration: Vec<(String, Vec<MvnxPose>)>,
     /// The recorded frames.
     pub frames: Vec<MvnxFrame>,
 }
@@ -84,15 +85,6 @@ pub struct MvnxPose {
     pub orientation: [f64; 4],
     /// Global position of the origin [m].
     pub position: [f64; 3],
-}
-
-/// A pose of the calibration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CalibrationPose {
-    /// `identity`, `tpose`, `npose`, `tpose-isb`, `npose-isb`.
-    pub kind: String,
-    /// One pose for each segment.
-    pub poses: Vec<MvnxPose>,
 }
 
 /// A recorded frame.

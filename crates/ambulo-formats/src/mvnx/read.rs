@@ -1,6 +1,6 @@
 //! Reads `.mvnx`.
 
-use super::{CalibrationPose, Mvnx, MvnxFrame, MvnxJoint, MvnxPose, MvnxSegment};
+use super::{Mvnx, MvnxFrame, MvnxJoint, MvnxPose, MvnxSegment};
 use crate::error::{Error, Remark, quoted};
 use crate::xml::{self, child, document_text, elements, error_at, numbers_of, text};
 use roxmltree::Node;
@@ -59,7 +59,7 @@ impl Mvnx {
             let is_recorded = kind == "normal" || (kind.is_empty() && frame.attribute("index").is_some());
             if !is_recorded {
                 if let Some(poses) = self.poses(frame)? {
-                    self.calibration.push(CalibrationPose { kind, poses });
+                    self.calibration.push((kind, poses));
                 }
                 continue;
             }

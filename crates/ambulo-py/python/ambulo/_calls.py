@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ambulo import _ambulo
 from ambulo._batch import Batch
 from ambulo._errors import InputError
-from ambulo._inputs import Inputs, joined, listed
+from ambulo._inputs import Inputs, listed, numbers
 from ambulo._person import Person
 from ambulo._recording import Recording
 from ambulo._result import Result
@@ -392,8 +392,8 @@ def validate(
     -----
     Other threads run meanwhile. Which files belong together, and definitions of the errors: docs/VALIDATE.md.
     """
-    options = {"mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs, "quiet": True}
-    return _warned(_ambulo.validate(folder, options))
+    fields = {"folder": folder, "mass": mass, "height": height, "figure": figure, "markers": markers, "track": track, "jobs": jobs}
+    return _warned(_ambulo.run({"validate": fields}))
 
 
 def batch(
@@ -449,8 +449,17 @@ def batch(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the parts that are closed are kept, and `resume` continues. Which files are
     trials, and the columns of the tables: docs/BATCH.md.
     """
-    own = {"output": os.fspath(output), "jobs": jobs, "shard": shard, "resume": resume, "keep": listed(keep), "part": part}
-    return Batch(_ambulo.batch(source, {**own, "limit": limit, "quiet": True}, dict(options or {})))
+    own = {
+        "source": source,
+        "output": output,
+        "jobs": jobs,
+        "shard": shard,
+        "resume": resume,
+        "keep": listed(keep),
+        "part": part,
+        "limit": limit,
+    }
+    return Batch(_ambulo.run({"batch": {"own": own}}, of_all=dict(options or {})))
 
 
 def session(
@@ -504,8 +513,8 @@ def session(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`, and nothing is written. Rules and definitions: docs/SESSION.md.
     """
     source = [folder] if isinstance(folder, (str, os.PathLike)) else list(folder)
-    own = {"output": os.fspath(output), "compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs, "force": force}
-    return Result(_ambulo.session(source, {**own, "quiet": True}, dict(options or {})))
+    own = {"source": source, "output": output, "compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs}
+    return Result(_ambulo.run({"session": {"own": own}}, of_all=dict(options or {}), force=force))
 
 
 def walk(
@@ -610,10 +619,35 @@ def walk(
     -----
     Other threads run meanwhile. Methods and sources: docs/GAITS.md for the curves, docs/OPTIMAL.md and docs/CORRECTED_WALK.md for the walks.
     """
-    options = dict(locals())
-    options["no_toe_joint"] = not options.pop("toe_joint")
-    options["keep"] = listed(keep)
-    return _warned(_ambulo.walk(options))
+    changes = {"speed_change": speed_change, "step_length_change": step_length_change, "cadence_change": cadence_change}
+    fields = {
+        "gait": {
+            "gait": gait,
+            "speed": speed,
+            "step_length": step_length,
+            "cadence": cadence,
+            "step_height": step_height,
+            "style": style,
+            **{name: listed(values) for name, values in changes.items()},
+        },
+        "figure": {"figure": figure, "mass": mass, "height": height, "no_toe_joint": not toe_joint},
+        "conditions": {
+            "slope": slope,
+            "load": load,
+            "weak": listed(weak),
+            "device": device,
+            "step_width": step_width,
+            "asymmetric": asymmetric,
+        },
+        "mode": mode,
+        "torques": torques,
+        "cycles": cycles,
+        "rate": rate,
+        "convention": convention,
+        "thresholds": thresholds,
+        "keep": listed(keep),
+    }
+    return _warned(_ambulo.run({"walk": fields}))
 
 
 def simulate(
@@ -657,8 +691,8 @@ def simulate(
     """
     inputs = Inputs()
     path = inputs.path(scene, "scene.toml") or ""
-    options = {"duration": duration, "step": step, "resume": resume, "keep": listed(keep)}
-    return _warned(_ambulo.simulate(path, options, inputs.files()))
+    fields = {"scene": path, "duration": duration, "step": step, "resume": resume, "keep": listed(keep)}
+    return _warned(_ambulo.run({"simulate": fields}, inputs.files()))
 
 
 def sweep(
@@ -716,9 +750,9 @@ def sweep(
     Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the walks that are being computed are finished before the threads end. Methods and
     sources: docs/OPTIMAL.md.
     """
-    numbers = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
-    options = {"weak": weak, "device": device, "predict": predict, "figure": figure, "keep": listed(keep), "quiet": True}
-    return _warned(_ambulo.sweep({name: joined(values) for name, values in numbers.items()} | options))
+    swept = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
+    others = {"weak": listed(weak), "device": device, "predict": predict, "figure": figure, "keep": listed(keep)}
+    return _warned(_ambulo.run({"sweep": {name: numbers(values) for name, values in swept.items()} | others}))
 
 
 def open(folder: _Path) -> Result:

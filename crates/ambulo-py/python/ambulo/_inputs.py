@@ -44,16 +44,18 @@ class Inputs:
         return list(self._files.items())
 
 
-def joined(value: Any) -> Any:
-    """Return numbers of a sweep as the command takes them: separated by commas."""
+def numbers(value: Any) -> Any:
+    """Return the values of a sweep as a request takes them: text, a number or a list of numbers."""
     if value is None or isinstance(value, str):
         return value
     try:
-        return ",".join(str(float(number)) for number in value)
+        return [float(number) for number in value]
     except TypeError:
-        return str(float(value))
+        return float(value)
 
 
 def listed(values: Any) -> Any:
-    """Return words as the command takes a list of them: separated by commas."""
-    return values if values is None or isinstance(values, str) else ",".join(values)
+    """Return words as a request takes them: a list, also of words in one text, separated by commas."""
+    if values is None:
+        return None
+    return values.split(",") if isinstance(values, str) else list(values)

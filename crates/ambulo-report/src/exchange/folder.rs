@@ -4,13 +4,14 @@ use super::glb::glb;
 use super::long_table::long_table;
 use super::skeleton::skeleton_of;
 use crate::stage::{FolderMotion, Stage, folder_motion};
-use ambulo::kinematics::Trajectory;
 use ambulo::kinematics::rig::RigError;
+use ambulo::kinematics::{Trajectory, TrajectoryError};
 use ambulo::model::Model;
+use ambulo::model::marker_set::MarkerSetError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo_results::{Folder, ResultsError};
 
-/// Why a folder or a motion cannot be converted.
+/// Why a folder, a motion or a figure cannot be converted or drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExchangeError {
@@ -34,27 +35,25 @@ pub enum ExchangeError {
     /// The folder is not the result of the animation file.
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// A built-in marker set cannot be read.
+    #[error(transparent)]
+    Markers(#[from] MarkerSetError),
+    /// The posture of the figure is not possible.
+    #[error(transparent)]
+    Posture(#[from] TrajectoryError),
     /// Data that JSON cannot store.
     #[error("the description could not be written: {0}")]
     Data(#[from] serde_json::Error),
 }
 
-/// An animated glTF file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Glb {
-    /// The file.
-    pub bytes: Vec<u8>,
-    /// Number of forces shown as arrows.
-    pub arrows: usize,
-}
-
-/// An animated glTF file (`.glb`) of a result folder: the figure or the scene, ground forces as arrows.
+/// An animated glTF file (`.glb`) of a result folder: the figure or the scene, ground forces as arrows; and the number
+/// of arrows.
 ///
 /// # Errors
 /// A folder without moving bodies, or with a file that cannot be read.
-pub fn glb_of_folder(folder: &Folder<'_>) -> Result<Glb, ExchangeError> {
+pub fn glb_of_folder(folder: &Folder<'_>) -> Result<(Vec<u8>, usize), ExchangeError> {
     let stage = Stage::of_folder(folder)?.map_err(|reason| nothing(folder, reason))?;
-    Ok(Glb { bytes: glb(&stage, &folder.name)?, arrows: stage.forces.len() })
+    Ok((glb(&stage, &folder.name)?, stage.forces.len()))
 }
 
 /// An animated glTF file (`.glb`) of a model's motion.

@@ -7,9 +7,10 @@
 //! middle. The data are synthetic, without noise.
 //! Pinned by: tests/exchange.rs of the command
 
-use ambulo::kinematics::{Trajectory, TrajectoryError, each_body_motion};
+use super::folder::ExchangeError;
+use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anthropometry::Human;
-use ambulo::model::marker_set::{MarkerSet, MarkerSetError};
+use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{ForceRecording, MarkerPath, MarkerRecording, TimeGrid, interpolate};
 use ambulo::spatial::{Mat3, Vec3};
@@ -27,18 +28,6 @@ const LOADED_N: f64 = 20.0;
 const SHORTEST: f64 = 0.1;
 const MILLIMETRES: f64 = 1000.0;
 
-/// Why no recording can be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LaboratoryError {
-    /// The markers.
-    #[error(transparent)]
-    Markers(#[from] MarkerSetError),
-    /// The figure cannot stand.
-    #[error(transparent)]
-    Standing(#[from] TrajectoryError),
-}
-
 /// The recording of a walk: markers of the figure, forces on its feet (world axes, about given points), one plate per
 /// contact.
 ///
@@ -48,7 +37,7 @@ pub fn laboratory_recording(
     human: &Human,
     trajectory: &Trajectory,
     loads: &[ForceRecording],
-) -> Result<C3d, LaboratoryError> {
+) -> Result<C3d, ExchangeError> {
     let mut c3d = recording(human, trajectory)?;
     let times = analog_times(trajectory.grid());
     let mut platforms = Vec::new();
@@ -71,7 +60,7 @@ pub fn laboratory_recording(
 ///
 /// # Errors
 /// A built-in marker set that cannot be read, which a test rules out.
-pub fn standing_recording(human: &Human, rate_hz: f64) -> Result<C3d, LaboratoryError> {
+pub fn standing_recording(human: &Human, rate_hz: f64) -> Result<C3d, ExchangeError> {
     let frames = (0.5 * rate_hz).ceil().max(2.0) as usize;
     let grid = TimeGrid { start_s: 0.0, step_s: 1.0 / rate_hz, frames };
     let still = |value: f64| [vec![value; frames], vec![0.0; frames], vec![0.0; frames]];
@@ -93,7 +82,7 @@ pub fn standing_recording(human: &Human, rate_hz: f64) -> Result<C3d, Laboratory
 }
 
 /// Markers, body mass and stature.
-fn recording(human: &Human, trajectory: &Trajectory) -> Result<C3d, LaboratoryError> {
+fn recording(human: &Human, trajectory: &Trajectory) -> Result<C3d, ExchangeError> {
     let grid = trajectory.grid();
     let rate_hz = 1.0 / grid.step_s;
     let markers = MarkerSet::named("plug-in-gait")?.on(human);

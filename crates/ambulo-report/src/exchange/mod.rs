@@ -3,7 +3,7 @@
 //! results as one long table.
 
 mod folder;
-mod glb;
+pub(crate) mod glb;
 mod laboratory;
 mod long_table;
 mod markers;
@@ -11,8 +11,8 @@ mod plates;
 mod rig;
 mod skeleton;
 
-pub use folder::{ExchangeError, Glb, bvh_of_folder, csv_of_folder, glb_of_folder, glb_of_motion};
-pub use laboratory::{LaboratoryError, laboratory_recording, marker_paths, standing_recording};
+pub use folder::{ExchangeError, bvh_of_folder, csv_of_folder, glb_of_folder, glb_of_motion};
+pub use laboratory::{laboratory_recording, marker_paths, standing_recording};
 pub use markers::{c3d_of_markers, table_of_markers, trc_of_markers};
 pub use plates::{GroundReactions, ground_reactions};
 pub use rig::rig_of_folder;

@@ -20,7 +20,7 @@ pub(super) struct Axes<'a> {
 
 /// Which numbers of an axis have a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Ticks<'a> {
+pub enum Ticks<'a> {
     /// Three to six round numbers.
     Round,
     /// Given numbers with their labels, for example powers of ten on a logarithmic axis.
@@ -29,10 +29,11 @@ pub(super) enum Ticks<'a> {
 
 /// Ticks with their labels.
 #[derive(Debug, Clone, PartialEq)]
-struct Labels {
-    ticks: Vec<(f64, String)>,
+pub struct Labels {
+    /// Their numbers, with what is written there.
+    pub ticks: Vec<(f64, String)>,
     /// Labels are to be multiplied by this power of ten.
-    power: i32,
+    pub power: i32,
 }
 
 /// The text at the axes.
@@ -57,6 +58,8 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
+/// Letters of the font that a browser has may be wider than those of the style's first font by this factor.
+const WIDER: f64 = 1.15;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;
 /// Numbers up to this size are written in full; larger and much smaller ones share a power of ten.
@@ -153,20 +156,27 @@ impl<'a> Axes<'a> {
         let font = &style.font;
         let powers = [self.ticks[0].labels(self.along).power, self.ticks[1].labels(self.up).power];
         let unit_text = with_power(words.unit, powers[1]);
-        let unit = Letters::plain(font.label_pt, &style.quiet.color, Anchor::End);
-        let room = right - (left - LEFT + 2.0) - text_width(&unit_text, font.label_pt) - 4.0;
-        let fitting = room / (BOLD * text_width(words.title, 1.0)).max(f64::MIN_POSITIVE);
-        let size = font.panel_pt.min(fitting).max(font.note_pt);
+        let quiet = |size, anchor| Letters::plain(size, &style.quiet.color, anchor);
+        let upwards = |anchor| Letters { upwards: true, ..quiet(font.note_pt, anchor) };
+        let (start, line) = (left - LEFT + 2.0, top - 4.5 - words.legend_height);
+        let width = WIDER * BOLD * text_width(words.title, 1.0);
+        let size_in = |room: f64| font.panel_pt.min(room / width.max(f64::MIN_POSITIVE));
+        let beside = size_in(right - start - WIDER * text_width(&unit_text, font.label_pt) - 4.0);
+        // A unit that has no place beside a long title stands along the axis.
+        let is_beside = beside >= font.note_pt || words.directions != [""; 2];
+        let size = if is_beside { beside } else { size_in(right - start) }.max(font.note_pt);
         let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
-        let line = top - 4.5 - words.legend_height;
-        drawing.text([left - LEFT + 2.0, line], words.title, title);
-        drawing.text([right, line], &unit_text, unit);
+        drawing.text([start, line], words.title, title);
+        let x = left - LEFT + font.note_pt + 1.0;
+        if is_beside {
+            drawing.text([right, line], &unit_text, quiet(font.label_pt, Anchor::End));
+        } else {
+            drawing.text([x, 0.5 * (top + bottom)], &unit_text, upwards(Anchor::Middle));
+        }
         if let Some(name) = words.abscissa {
             let letters = Letters::plain(font.label_pt, &style.text.color, Anchor::Middle);
             drawing.text([0.5 * (left + right), bottom + BELOW - 3.0], &with_power(name, powers[0]), letters);
         }
-        let upwards = |anchor| Letters { upwards: true, ..Letters::plain(font.note_pt, &style.quiet.color, anchor) };
-        let x = left - LEFT + font.note_pt + 1.0;
         let [up, down] = words.directions;
         if !up.is_empty() {
             drawing.text([x, top], &format!("{up} →"), upwards(Anchor::End));
@@ -178,7 +188,7 @@ impl<'a> Axes<'a> {
 }
 
 /// Range of numbers with a margin above and below; around 0 if there are none; never empty.
-pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64; 2] {
+pub fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64; 2] {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let finite = numbers.into_iter().filter(|x| x.is_finite());
     let (low, high) = finite.fold(start, |(low, high), x| (low.min(x), high.max(x)));
@@ -191,7 +201,8 @@ pub(super) fn range(numbers: impl IntoIterator<Item = f64>, least: f64) -> [f64;
 }
 
 /// Round numbers inside a range, three to six, and the decimals that they need.
-fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
+#[must_use]
+pub fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
     let rough = (high - low) / 5.0;
     if !(rough > 0.0 && rough.is_finite()) {
         return (Vec::new(), 0);
@@ -211,7 +222,9 @@ fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
 }
 
 impl Ticks<'_> {
-    fn labels(self, range: [f64; 2]) -> Labels {
+    /// The ticks inside a range.
+    #[must_use]
+    pub fn labels(self, range: [f64; 2]) -> Labels {
         match self {
             Ticks::Round => round_labels(range),
             Ticks::Given(ticks) => {
@@ -222,7 +235,9 @@ impl Ticks<'_> {
     }
 }
 
-fn round_labels([low, high]: [f64; 2]) -> Labels {
+/// Round numbers inside a range with their labels.
+#[must_use]
+pub fn round_labels([low, high]: [f64; 2]) -> Labels {
     let size = low.abs().max(high.abs());
     let written_in_full = !size.is_normal() || (SMALLEST..LARGEST).contains(&size);
     // Multiples of three, as for prefixes of units.
@@ -234,7 +249,8 @@ fn round_labels([low, high]: [f64; 2]) -> Labels {
 }
 
 /// A unit, or a quantity with its unit in parentheses, whose numbers are to be multiplied by a power of ten.
-fn with_power(unit: &str, power: i32) -> String {
+#[must_use]
+pub fn with_power(unit: &str, power: i32) -> String {
     if power == 0 {
         return unit.to_owned();
     }
@@ -251,53 +267,11 @@ fn with_power(unit: &str, power: i32) -> String {
     }
 }
 
-fn number_text(number: f64, digits: usize) -> String {
+/// A number with this many digits, as it stands at an axis.
+#[must_use]
+pub fn number_text(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$}");
     let zero = text.trim_start_matches('-').chars().all(|letter| matches!(letter, '0' | '.'));
     // A minus sign instead of a hyphen.
     if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_inside() {
-        assert_eq!(ticks([0.0, 100.0]), (vec![0.0, 20.0, 40.0, 60.0, 80.0, 100.0], 0));
-        let (rows, digits) = ticks([-0.83, 1.41]);
-        assert_eq!((rows.len(), digits), (4, 1), "{rows:?}");
-        assert!(rows.iter().all(|x| (-0.83..1.41).contains(x)));
-        assert_eq!(ticks([1.0, 1.0]).0.len(), 0);
-        assert_eq!(number_text(-0.0, 1), "0.0");
-        assert_eq!(number_text(-2.5, 1), "−2.5");
-    }
-
-    #[test]
-    fn small_and_large_numbers_share_a_power_of_ten_that_the_unit_shows() {
-        let labels = |low, high| {
-            let Labels { ticks, power } = round_labels([low, high]);
-            (ticks.into_iter().map(|(_, label)| label).collect::<Vec<_>>(), power)
-        };
-        let (tiny, power) = labels(-2e-12, 2e-12);
-        assert_eq!((tiny.join(" ").as_str(), power), ("−2 −1 0 1 2", -12));
-        assert_eq!(labels(0.0, 2e6).1, 6);
-        assert_eq!(labels(-90.0, 30.0).1, 0);
-        assert_eq!(with_power("change (J)", -12), "change (10⁻¹² J)");
-        assert_eq!(with_power("N", 3), "10³ N");
-    }
-
-    #[test]
-    fn given_ticks_are_drawn_where_they_lie_inside() {
-        let given = [(0.0, "1".to_owned()), (1.0, "10".to_owned()), (2.0, "100".to_owned())];
-        assert_eq!(Ticks::Given(&given).labels([0.5, 2.0]).ticks, &given[1..]);
-    }
-
-    #[test]
-    fn a_range_is_never_empty() {
-        let [low, high] = range([], 0.2);
-        assert!(low < 0.0 && high > 0.0);
-        let [low, high] = range([5.0, 5.0, f64::NAN], 1.0);
-        assert!(low < 5.0 && high > 5.0 && high - low >= 1.0);
-    }
 }

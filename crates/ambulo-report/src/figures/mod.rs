@@ -1,23 +1,23 @@
 //! Draws figures as SVG for papers and reports, without a browser.
 
-mod axes;
+pub(crate) mod axes;
 mod chart;
 mod cycle_figures;
 mod cycle_panel;
 mod gait_figure;
-mod moving_picture;
+pub(crate) mod moving_picture;
 mod paper_figure;
 mod scene_figures;
-mod session_panels;
-mod sheet;
-mod svg;
+pub(crate) mod session_panels;
+pub(crate) mod sheet;
+pub(crate) mod svg;
 mod time_figures;
 
 pub use chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, PALE};
 #[doc(hidden)]
 pub use cycle_figures::CycleFigures;
 pub use gait_figure::gait_figure;
-pub(crate) use moving_picture::moving_picture;
+pub(crate) use moving_picture::{moving_picture, moving_speed};
 pub(crate) use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
 pub(crate) use session_panels::{

@@ -14,7 +14,8 @@ const NEAR: (&str, f64) = ("#1d4ed8", 2.5);
 const MARKS_M: f64 = 0.5;
 
 /// The figure walks on the spot; marks on the ground move at its speed.
-pub(crate) fn moving_picture(figure: &MovingFigure, label: &str) -> String {
+#[must_use]
+pub fn moving_picture(figure: &MovingFigure, label: &str) -> String {
     let [width, height] = SIZE;
     let ground = height - GROUND;
     let mut svg = format!(
@@ -95,23 +96,67 @@ fn marks(figure: &MovingFigure, ground: f64) -> String {
     )
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo_paper::MovingStick;
+/// Width and height of the picture of the speed [px], and the margins of its axes.
+const SPEED_SIZE: [f64; 2] = [420.0, 240.0];
+const LEFT: f64 = 46.0;
+const ABOVE: f64 = 22.0;
+const BELOW: f64 = 34.0;
+const RIGHT: f64 = 12.0;
+/// Distance of the lines of the speed [m/s].
+const SPEED_TICK: f64 = 0.5;
 
-    #[test]
-    fn every_stick_has_all_instants_and_marks_pass_by() {
-        let points = vec![vec![[0.0, 0.0], [0.0, 1.0]], vec![[0.1, 0.0], [0.0, 1.0]]];
-        let sticks = vec![MovingStick { kind: SeriesKind::Line, points }];
-        let head = Some(MovingHead { radius: 0.125, centres: vec![[0.0, 1.5], [0.25, 1.5]] });
-        let figure = MovingFigure { gait: "short".into(), cycle_s: 0.62, sticks, head, advance: vec![0.0, 1.0] };
-        let svg = moving_picture(&figure, "short");
-        assert!(
-            svg.contains("dur=\"0.620s\"") && svg.contains("M85.0 226.0L85.0 114.0;M96.2 226.0L85.0 114.0"),
-            "{svg}"
+/// Forward speed over the cycle, with a dot that moves as the figure does.
+pub fn moving_speed(figure: &MovingFigure) -> String {
+    let [width, height] = SPEED_SIZE;
+    let highest = figure.speed.iter().fold(SPEED_TICK, |top, speed| top.max(*speed));
+    let lowest = figure.speed.iter().fold(0.0_f64, |low, speed| low.min(*speed));
+    let last = figure.speed.len().saturating_sub(1).max(1) as f64;
+    let x = |share: f64| LEFT + share * (width - LEFT - RIGHT);
+    let y = |speed: f64| height - BELOW - (speed - lowest) / (highest - lowest) * (height - ABOVE - BELOW);
+    let place = |(instant, speed): (usize, &f64)| [x(instant as f64 / last), y(*speed)];
+    let places: Vec<[f64; 2]> = figure.speed.iter().enumerate().map(place).collect();
+    let first = (lowest / SPEED_TICK).ceil();
+    let ticks = (0..).map(|tick| SPEED_TICK * (first + f64::from(tick))).take_while(|speed| *speed <= highest);
+    format!(
+        "<svg role=\"img\" aria-label=\"forward speed over the cycle\" viewBox=\"0 0 {width} {height}\" \
+         width=\"{width}\" height=\"{height}\" fill=\"none\" font-family=\"sans-serif\" font-size=\"12\">{}<text \
+         x=\"{LEFT}\" y=\"13\" fill=\"#444\">m/s</text><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" \
+         fill=\"#444\">gait cycle, 0 to 100 %</text><path d=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>{}</svg>",
+        ticks.map(|speed| tick_line(speed, y(speed), [x(0.0), x(1.0)])).collect::<String>(),
+        x(0.5),
+        height - 10.0,
+        polyline(&places),
+        NEAR.0,
+        dot(&places, figure.cycle_s)
+    )
+}
+
+/// A line across the axes with its speed [m/s].
+fn tick_line(speed: f64, y: f64, [left, right]: [f64; 2]) -> String {
+    format!(
+        "<path d=\"M{left:.1} {y:.1}H{right:.1}\" stroke=\"#ccc\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" \
+         fill=\"#444\">{speed:.1}</text>",
+        left - 6.0,
+        y + 4.0
+    )
+}
+
+fn polyline(places: &[[f64; 2]]) -> String {
+    let letter = |number: usize| if number == 0 { 'M' } else { 'L' };
+    places.iter().enumerate().map(|(number, [x, y])| format!("{}{x:.1} {y:.1}", letter(number))).collect()
+}
+
+/// A dot that passes all places in a cycle.
+fn dot(places: &[[f64; 2]], cycle_s: f64) -> String {
+    let [x, y] = places.first().copied().unwrap_or_default();
+    let mut svg = format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\" fill=\"#c2410c\">");
+    for (axis, name) in ["cx", "cy"].into_iter().enumerate() {
+        let values: Vec<String> = places.iter().map(|place| format!("{:.1}", place[axis])).collect();
+        let _ = write!(
+            svg,
+            "<animate attributeName=\"{name}\" dur=\"{cycle_s:.3}s\" repeatCount=\"indefinite\" values=\"{}\"/>",
+            values.join(";")
         );
-        assert!(svg.contains("<circle cx=\"85.0\" cy=\"58.0\" r=\"14.0\"") && svg.contains("\"85.0;113.0\""), "{svg}");
-        assert!(svg.contains("0.0 0;-112.0 0") || svg.contains("-0.0 0;-112.0 0"), "{svg}");
     }
+    svg + "</circle>"
 }

@@ -19,17 +19,6 @@ const ROUNDING_N: f64 = 1e-6;
 /// A quantity over time: instant [s] and value.
 type Curve = Vec<[f64; 2]>;
 
-/// The curves of one coordinate of a joint.
-#[derive(Debug, Clone, Default)]
-struct JointCurves {
-    /// Whether it is an angle.
-    turns: bool,
-    /// Value [rad, m].
-    value: Curve,
-    /// [N.m, N].
-    effort: Curve,
-}
-
 /// Collects the curves of a run frame by frame.
 #[derive(Debug, Clone, Default)]
 pub struct SceneCurves {
@@ -39,8 +28,8 @@ pub struct SceneCurves {
     solver: [Curve; 2],
     /// By pair of owners: normal force and friction [N].
     contacts: BTreeMap<String, [Curve; 2]>,
-    /// By joint and coordinate.
-    joints: BTreeMap<(String, &'static str), JointCurves>,
+    /// By joint and coordinate: whether it is an angle, its value [rad, m] and effort [N.m, N].
+    joints: BTreeMap<(String, &'static str), (bool, [Curve; 2])>,
     /// By body: place along x, y, z [m].
     bodies: Vec<(String, [Curve; 3])>,
     /// By closure: force and moment.
@@ -77,10 +66,10 @@ impl SceneCurves {
         }
         for (number, joint) in world.joints.iter().enumerate() {
             for (k, name) in joint.kind.coordinate_names().iter().enumerate() {
-                let entry = self.joints.entry((joint.name.clone(), *name)).or_default();
-                entry.turns = joint.kind.turns(k);
-                entry.value.push([t, state.coordinates[number][k]]);
-                entry.effort.push([t, forces.efforts[number][k]]);
+                let (turns, [value, effort]) = self.joints.entry((joint.name.clone(), *name)).or_default();
+                *turns = joint.kind.turns(k);
+                value.push([t, state.coordinates[number][k]]);
+                effort.push([t, forces.efforts[number][k]]);
             }
         }
         for (number, wrench) in &forces.closing {
@@ -204,24 +193,21 @@ impl SceneCurves {
     }
 
     fn joint_panels(&self, wanted: impl Fn(&str) -> bool) -> Vec<Panel> {
-        let of = |turning: bool, pick: fn(&JointCurves) -> &Curve, unit: f64| {
-            let chosen = self.joints.iter().filter(|((joint, _), curves)| curves.turns == turning && wanted(joint));
-            largest(chosen.map(|((joint, coordinate), curves)| {
+        let (value, effort) = (0, 1);
+        let of = |turning: bool, which: usize, unit: f64| {
+            let chosen = self.joints.iter().filter(|((joint, _), (turns, _))| *turns == turning && wanted(joint));
+            largest(chosen.map(|((joint, coordinate), (_, curves))| {
                 let plain = matches!(*coordinate, "angle" | "distance");
                 let name = if plain { joint.clone() } else { format!("{joint} {coordinate}") };
-                (name, pick(curves).iter().map(|[t, x]| [*t, unit * x]).collect())
+                (name, curves[which].iter().map(|[t, x]| [*t, unit * x]).collect())
             }))
         };
-        let mut pushing = of(false, |c| &c.effort, 1.0);
+        let mut pushing = of(false, effort, 1.0);
         pushing.retain(|(_, curve)| curve.iter().any(|[_, force]| force.abs() > ROUNDING_N));
         vec![
-            Panel { title: "Joint angles", label: "angle (deg)", curves: of(true, |c| &c.value, 1.0_f64.to_degrees()) },
-            Panel { title: "Joint moments", label: "moment (N.m)", curves: of(true, |c| &c.effort, 1.0) },
-            Panel {
-                title: "Displacements of sliding joints",
-                label: "distance (m)",
-                curves: of(false, |c| &c.value, 1.0),
-            },
+            Panel { title: "Joint angles", label: "angle (deg)", curves: of(true, value, 1.0_f64.to_degrees()) },
+            Panel { title: "Joint moments", label: "moment (N.m)", curves: of(true, effort, 1.0) },
+            Panel { title: "Displacements of sliding joints", label: "distance (m)", curves: of(false, value, 1.0) },
             Panel { title: "Forces along sliding joints", label: "force (N)", curves: pushing },
         ]
     }

@@ -19,13 +19,15 @@ const SLACK: f64 = 0.01;
 
 /// How a line is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct LineLook {
-    pub(crate) color: String,
-    /// [pt]
-    pub(crate) width: f64,
-    pub(crate) opacity: f64,
+pub struct LineLook {
+    /// As `#RRGGBB`.
+    pub color: String,
+    /// Width [pt].
+    pub width: f64,
+    /// 0 to 1.
+    pub opacity: f64,
     /// Lengths of dashes and gaps [pt].
-    pub(crate) dash: Vec<f64>,
+    pub dash: Vec<f64>,
 }
 
 impl LineLook {
@@ -36,56 +38,76 @@ impl LineLook {
 
 /// A curve with values at equal distances from 0 to 100 %.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PanelLine {
-    pub(crate) values: Vec<f64>,
-    pub(crate) look: LineLook,
+pub struct PanelLine {
+    /// The values; a gap is not finite.
+    pub values: Vec<f64>,
+    /// How it is drawn.
+    pub look: LineLook,
     /// Kind of line, for readers of the file: `cycle`, `mean`.
-    pub(crate) role: &'static str,
+    pub role: &'static str,
 }
 
 /// The area between two curves.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PanelArea {
-    pub(crate) low: Vec<f64>,
-    pub(crate) high: Vec<f64>,
-    pub(crate) color: String,
-    pub(crate) opacity: f64,
+pub struct PanelArea {
+    /// The lower curve.
+    pub low: Vec<f64>,
+    /// The upper curve.
+    pub high: Vec<f64>,
+    /// As `#RRGGBB`.
+    pub color: String,
+    /// 0 to 1.
+    pub opacity: f64,
 }
 
 /// A quantity over the gait cycle.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SessionPanel {
-    pub(crate) id: &'static str,
-    pub(crate) title: &'static str,
-    pub(crate) unit: &'static str,
+pub struct SessionPanel {
+    /// As in `clinical.csv`, without the side.
+    pub id: &'static str,
+    /// Above the axes.
+    pub title: &'static str,
+    /// Unit of the values.
+    pub unit: &'static str,
     /// Meaning of positive and negative values.
-    pub(crate) directions: [&'static str; 2],
+    pub directions: [&'static str; 2],
     /// The usual range of the ordinate.
-    pub(crate) scale: [f64; 2],
-    pub(crate) band: Option<NormalCurve>,
-    pub(crate) areas: Vec<PanelArea>,
-    pub(crate) lines: Vec<PanelLine>,
+    pub scale: [f64; 2],
+    /// The normative band.
+    pub band: Option<NormalCurve>,
+    /// Areas, below the lines.
+    pub areas: Vec<PanelArea>,
+    /// The curves.
+    pub lines: Vec<PanelLine>,
     /// Foot off [% of the cycle]: the right ones stand on the abscissa, the left ones above them.
-    pub(crate) foot_offs: [Vec<(f64, LineLook)>; 2],
+    pub foot_offs: [Vec<(f64, LineLook)>; 2],
     /// Lines above the axes with their meaning.
-    pub(crate) legend: Vec<(LineLook, String)>,
+    pub legend: Vec<(LineLook, String)>,
 }
 
 /// A figure of panels, three in a row.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SessionFigure {
-    pub(crate) name: &'static str,
-    pub(crate) title: String,
-    pub(crate) caption: String,
-    pub(crate) panels: Vec<SessionPanel>,
-    pub(crate) legend: Vec<(SessionSample, String)>,
-    pub(crate) notes: Vec<String>,
+pub struct SessionFigure {
+    /// Its name in messages.
+    pub name: &'static str,
+    /// Above the panels.
+    pub title: String,
+    /// Below the title.
+    pub caption: String,
+    /// Its panels, in rows.
+    pub panels: Vec<SessionPanel>,
+    /// Symbols with their meaning.
+    pub legend: Vec<(SessionSample, String)>,
+    /// Sentences below the panels.
+    pub notes: Vec<String>,
 }
 
 /// The symbol of an entry of a legend.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum SessionSample {
+pub enum SessionSample {
+    /// A line.
     Line(LineLook),
+    /// A vertical mark.
     Tick(LineLook),
     /// Colour and opacity.
     Patch(String, f64),
@@ -99,7 +121,7 @@ impl SessionFigure {
     ///
     /// # Errors
     /// A style that cannot be read.
-    pub(crate) fn svg(&self) -> Result<String, FigureError> {
+    pub fn svg(&self) -> Result<String, FigureError> {
         let style = style().map_err(|e| FigureError { name: self.name, reason: e.to_string() })?;
         let legend = self.legend.iter().map(|(sample, words)| {
             let sample = match sample {
@@ -143,7 +165,8 @@ impl SessionPanel {
     }
 
     /// The usual range, with whole steps more at the ends where a curve leaves it.
-    fn range(&self) -> [f64; 2] {
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
         let step = STEP * (self.scale[1] - self.scale[0]);
         let lines = self.lines.iter().flat_map(|line| line.values.iter());
         let areas = self.areas.iter().flat_map(|area| area.low.iter().chain(&area.high));
@@ -326,49 +349,5 @@ impl ProfileBars {
             let y = axes.place[3] + 3.0 + (line as f64 + 0.9) * size;
             drawing.text([axes.x(middle), y], word, letters);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn panel(values: Vec<f64>) -> SessionPanel {
-        let look = LineLook { color: "#000000".to_owned(), width: 1.0, opacity: 1.0, dash: Vec::new() };
-        SessionPanel {
-            id: "knee_flexion_angle",
-            title: "Knee flexion",
-            unit: "deg",
-            directions: ["flexion", "extension"],
-            scale: [-20.0, 80.0],
-            band: None,
-            areas: Vec::new(),
-            lines: vec![PanelLine { values, look, role: "cycle" }],
-            foot_offs: [Vec::new(), Vec::new()],
-            legend: Vec::new(),
-        }
-    }
-
-    #[test]
-    fn a_scale_is_fixed_until_a_curve_leaves_it_and_grows_by_whole_steps() {
-        for (values, expected) in [
-            ([0.0, 60.0], "[-20.0, 80.0]"),
-            // Less than a hundredth of the range.
-            ([-20.9, 80.9], "[-20.0, 80.0]"),
-            ([0.0, 92.0], "[-20.0, 100.0]"),
-            ([-24.0, f64::NAN], "[-30.0, 80.0]"),
-        ] {
-            assert_eq!(format!("{:?}", panel(values.to_vec()).range()), expected);
-        }
-        let figure = |values: Vec<f64>| SessionFigure {
-            name: "test",
-            title: "Angles".to_owned(),
-            caption: String::new(),
-            panels: vec![panel(values)],
-            legend: Vec::new(),
-            notes: Vec::new(),
-        };
-        assert!(!figure(vec![0.0, 60.0]).svg().unwrap().contains("Scale larger"));
-        assert!(figure(vec![0.0, 92.0]).svg().unwrap().contains("Scale larger than usual"), "the figure says so");
     }
 }

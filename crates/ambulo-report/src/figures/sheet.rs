@@ -179,7 +179,8 @@ fn draw_sample(drawing: &mut Drawing, sample: Sample<'_>, [x, y]: [f64; 2], size
 }
 
 /// Lines of a text that fit into a width; words longer than that are cut.
-fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
+#[must_use]
+pub fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         let word = cut(word, size, room);
@@ -206,17 +207,4 @@ fn cut(word: &str, size: f64, room: f64) -> String {
         shown.push(letter);
     }
     shown + "…"
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_text_is_wrapped_and_a_word_without_end_is_cut() {
-        let lines = wrapped("one two three four", 10.0, text_width("one two", 10.0) + 0.1);
-        assert_eq!(lines, ["one two", "three", "four"]);
-        let long = wrapped(&"x".repeat(500), 6.0, 100.0);
-        assert!(long.len() == 1 && long[0].ends_with('…') && text_width(&long[0], 6.0) <= 106.0, "{long:?}");
-    }
 }

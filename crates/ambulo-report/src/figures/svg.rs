@@ -14,7 +14,7 @@ pub(super) fn points(mm: f64) -> f64 {
 
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke<'a> {
+pub struct Stroke<'a> {
     pub(super) color: &'a str,
     pub(super) width: f64,
     pub(super) opacity: f64,
@@ -23,7 +23,9 @@ pub(super) struct Stroke<'a> {
 }
 
 impl<'a> Stroke<'a> {
-    pub(super) fn solid(color: &'a str, width: f64) -> Stroke<'a> {
+    /// Without dashes [pt].
+    #[must_use]
+    pub fn solid(color: &'a str, width: f64) -> Stroke<'a> {
         Stroke { color, width, opacity: 1.0, dash: &[] }
     }
 }
@@ -54,7 +56,8 @@ impl<'a> Letters<'a> {
 }
 
 /// Width of a text [pt], estimated: letters of Arial are 0.5 em wide on average, small ones and blanks less.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
+#[must_use]
+pub fn text_width(text: &str, size: f64) -> f64 {
     let of = |letter: char| match letter {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.25,
         ' ' | 'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '·' => 0.32,
@@ -67,7 +70,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
 
 /// Builds a drawing.
 #[derive(Debug, Clone)]
-pub(super) struct Drawing {
+pub struct Drawing {
     width: f64,
     family: String,
     body: String,
@@ -75,7 +78,8 @@ pub(super) struct Drawing {
 
 impl Drawing {
     /// An empty drawing with this width [pt] and font family.
-    pub(super) fn new(width: f64, family: &str) -> Drawing {
+    #[must_use]
+    pub fn new(width: f64, family: &str) -> Drawing {
         Drawing { width, family: family.to_owned(), body: String::new() }
     }
 
@@ -107,7 +111,7 @@ impl Drawing {
     }
 
     /// A line through points, interrupted at points that are not finite.
-    pub(super) fn polyline(&mut self, points: &[[f64; 2]], stroke: Stroke<'_>, attributes: &[(&str, String)]) {
+    pub fn polyline(&mut self, points: &[[f64; 2]], stroke: Stroke<'_>, attributes: &[(&str, String)]) {
         for part in points.split(|[x, y]| !(x.is_finite() && y.is_finite())).filter(|part| part.len() > 1) {
             self.put("<polyline points=\"");
             self.list(part);
@@ -159,7 +163,8 @@ impl Drawing {
 
     /// The file: `height` [pt], title and description for screen readers, background colour. It has no ids, so that
     /// several drawings can be part of one page.
-    pub(super) fn finish(self, height: f64, title: &str, description: &str, ground: &str) -> String {
+    #[must_use]
+    pub fn finish(self, height: f64, title: &str, description: &str, ground: &str) -> String {
         let mm = |length: f64| short(length / POINTS_PER_MM);
         let (w, h) = (short(self.width), short(height));
         let (title, description) = (escaped(title), escaped(description));
@@ -225,7 +230,8 @@ const MOST_HUNDREDTHS: f64 = 1e9;
 const UNDECIDED: f64 = 1e-6;
 
 /// Two decimals, without zeros at the end: the digits of `{:.2}`.
-fn short(x: f64) -> String {
+#[must_use]
+pub fn short(x: f64) -> String {
     let mut text = String::new();
     push_short(&mut text, x);
     text
@@ -260,13 +266,16 @@ fn push_short(text: &mut String, x: f64) {
     }
 }
 
-fn without_zeros(decimals: &str) -> &str {
+/// Decimals without the zeros at their end.
+#[must_use]
+pub fn without_zeros(decimals: &str) -> &str {
     let text = decimals.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }
 }
 
 /// Escapes text for XML; characters that XML does not allow are left out.
-pub(super) fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -281,39 +290,4 @@ pub(super) fn escaped(text: &str) -> String {
         }
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_text_cannot_leave_its_element() {
-        assert_eq!(escaped("a<b> & \"c\"\u{0}\n'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;");
-    }
-
-    #[test]
-    fn numbers_have_the_digits_of_the_standard_library() {
-        for whole in [0.0, 0.5, 1.0, 9.99, 10.0, 123.4, 999_999.0, 1e7, 1e9] {
-            // Steps of an eighth of a hundredth have all ties.
-            for eighths in -1000..=1000 {
-                let near = whole + f64::from(eighths) / 800.0;
-                for x in [near, near.next_down(), near.next_up(), -near] {
-                    assert_eq!(short(x), without_zeros(&format!("{x:.2}")), "{x:?}");
-                }
-            }
-        }
-        assert_eq!([0.0, -0.001, 0.125, 0.375, -2.5].map(short), ["0", "0", "0.12", "0.38", "-2.5"]);
-        assert_eq!([f64::NAN, f64::INFINITY].map(short), ["NaN", "inf"]);
-    }
-
-    #[test]
-    fn a_line_breaks_where_there_is_no_number() {
-        let mut drawing = Drawing::new(100.0, "serif");
-        let points = [[0.0, 1.0], [1.0, 1.0], [2.0, f64::NAN], [3.0, 1.0], [4.0, 1.005]];
-        drawing.polyline(&points, Stroke::solid("#000000", 1.0), &[]);
-        let svg = drawing.finish(50.0, "t", "d", "#FFFFFF");
-        assert_eq!(svg.matches("<polyline").count(), 2, "{svg}");
-        assert!(svg.contains("width=\"35.28mm\""), "{svg}");
-    }
 }

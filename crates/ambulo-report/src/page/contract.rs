@@ -1,8 +1,8 @@
 //! The content of a report page: the contract between this crate and `viewer/`.
 //!
 //! The viewer draws and never computes: these types contain curves, means, tables and sentences as displayed, with
-//! their units and in clinical signs. The test at the end of this file makes `viewer/src/contract.ts` from them,
-//! including the doc comments.
+//! their units and in clinical signs. `viewer/src/contract.ts` is made from them, including the doc comments
+//! (`typescript.rs`, tests/page_contract.rs).
 //!
 //! World: x forward, y up, z to the right, metres. Times are seconds of the recording.
 
@@ -14,7 +14,7 @@ pub(super) const FORMAT: u32 = 1;
 
 /// A whole page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Page {
     /// Version of this contract.
     pub format: u32,
@@ -29,7 +29,7 @@ pub struct Page {
 /// Numbers in the page's block: `count` of them from number `at` on; `low + step q` for the 16-bit number q, and none
 /// where q is 65535.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Series {
     /// Place of the first, counted in 16-bit numbers.
     pub at: usize,
@@ -44,7 +44,7 @@ pub struct Series {
 /// A side of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(rename_all = "lowercase"))]
 pub(crate) enum PageSide {
     /// Right: blue, solid lines.
     R,
@@ -54,7 +54,7 @@ pub(crate) enum PageSide {
 
 /// One run of the program: the files of one folder.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Session {
     /// A short name: the name of the recording.
     pub name: String,
@@ -90,7 +90,7 @@ pub struct Session {
 
 /// Whether recording, body and forces fit together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct DataQuality {
     /// The answer.
     pub state: PageQuality,
@@ -100,7 +100,7 @@ pub(crate) struct DataQuality {
 
 /// A recording or walk at a glance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct Glance {
     /// Recording, person, source of the ground forces, speed, cadence, step length and asymmetry.
     pub facts: Vec<Fact>,
@@ -113,7 +113,7 @@ pub(crate) struct Glance {
 /// The three states of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(rename_all = "lowercase"))]
 pub(crate) enum PageQuality {
     /// No measure is beyond its limit.
     Good,
@@ -125,7 +125,7 @@ pub(crate) enum PageQuality {
 
 /// A line of the header.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct Fact {
     /// Name: `Body mass`.
     pub label: String,
@@ -138,7 +138,7 @@ pub(crate) struct Fact {
 /// How ground forces came about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(rename_all = "lowercase"))]
 pub(crate) enum PageSource {
     /// By force plates.
     Measured,
@@ -152,7 +152,7 @@ pub(crate) enum PageSource {
 
 /// Evenly spaced instants [s].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct TimeAxis {
     /// The first.
     pub start_s: f64,
@@ -164,7 +164,7 @@ pub(crate) struct TimeAxis {
 
 /// A foot strike or foot off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct PageEvent {
     /// Whose foot.
     pub side: PageSide,
@@ -176,7 +176,7 @@ pub(crate) struct PageEvent {
 
 /// A state machine and its states over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct PageMachine {
     /// Its name: `left knee`.
     pub name: String,
@@ -188,7 +188,7 @@ pub(crate) struct PageMachine {
 
 /// A period of time in which a machine is in one state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct PagePeriod {
     /// Place in `states`.
     pub state: usize,
@@ -200,7 +200,7 @@ pub(crate) struct PagePeriod {
 
 /// A gait cycle: strike to next strike of the same foot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct PageCycle {
     /// Whose foot.
     pub side: PageSide,
@@ -216,7 +216,7 @@ pub(crate) struct PageCycle {
 
 /// A grid of panels under one heading.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Group {
     /// A word without blanks: `kinematics`, `kinetics`, `ground`, `overlay`, `energy`, ...
     pub id: String,
@@ -232,7 +232,7 @@ pub struct Group {
 
 /// One diagram: over the gait cycle where there are cycles, and over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Panel {
     /// A word without blanks, unique in the page: `hip_flexion_moment`.
     pub id: String,
@@ -260,7 +260,7 @@ pub struct Panel {
 
 /// A curve of one cycle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct CycleCurve {
     /// Whose cycle.
     pub side: PageSide,
@@ -274,7 +274,7 @@ pub(crate) struct CycleCurve {
 
 /// The mean over the cycles of a side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct MeanCurve {
     /// Whose cycles.
     pub side: PageSide,
@@ -290,7 +290,7 @@ pub(crate) struct MeanCurve {
 
 /// Normative band at this speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Band {
     /// Mean at even steps from 0 to 100 %.
     pub mean: Series,
@@ -302,7 +302,7 @@ pub struct Band {
 
 /// A series over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct Trace {
     /// Name: `right`, `plates, left`, `limit`.
     pub name: String,
@@ -321,7 +321,7 @@ pub(crate) struct Trace {
 /// Role of a series in its panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "lowercase"))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(rename_all = "lowercase"))]
 pub(crate) enum Role {
     /// Quantity of the panel.
     Main,
@@ -333,7 +333,7 @@ pub(crate) enum Role {
 
 /// The place in the files that a series was read from: shown = `factor` times the file's number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Origin {
     /// Name of the file.
     pub file: String,
@@ -345,7 +345,7 @@ pub struct Origin {
 
 /// A table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Table {
     /// A word without blanks: `time_distance`, `extracted`, `markers`, `plates`, ...
     pub id: String,
@@ -363,7 +363,7 @@ pub struct Table {
 
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Cell {
     /// As shown, rounded.
     pub text: String,
@@ -375,7 +375,7 @@ pub struct Cell {
 
 /// How far the numbers can be trusted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Quality {
     /// Residual, marker error, agreement with plates, ... one line each.
     pub facts: Vec<Judged>,
@@ -391,7 +391,7 @@ pub struct Quality {
 
 /// A number with what is allowed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Judged {
     /// Name.
     pub label: String,
@@ -405,7 +405,7 @@ pub struct Judged {
 
 /// A remark of the program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct PageFinding {
     /// `ground.predicted`.
     pub code: String,
@@ -420,7 +420,7 @@ pub(crate) struct PageFinding {
 /// The three verdicts on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(rename_all = "snake_case"))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(rename_all = "snake_case"))]
 pub(crate) enum PageVerdict {
     /// Enough of the motion was judged and no check failed.
     Feasible,
@@ -442,7 +442,7 @@ impl From<VerdictState> for PageVerdict {
 
 /// Whether a person could do this.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct Feasibility {
     /// The verdict.
     pub(crate) state: PageVerdict,
@@ -456,7 +456,7 @@ pub struct Feasibility {
 
 /// A time in which a motion is not feasible.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct RedSpan {
     /// From [s].
     pub from_s: f64,
@@ -474,7 +474,7 @@ pub(crate) struct RedSpan {
 
 /// Content of the 3-D view.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct View {
     /// The bodies that move.
     pub(crate) bodies: Vec<ViewBody>,
@@ -496,7 +496,7 @@ pub struct View {
 
 /// A body with its shape and its path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct ViewBody {
     /// Name in the model.
     pub name: String,
@@ -511,10 +511,11 @@ pub(crate) struct ViewBody {
 }
 
 /// A shape, lengths in metres.
+#[doc(hidden)] // for tests
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
-#[cfg_attr(test, derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]
-pub(crate) enum ViewShape {
+#[cfg_attr(feature = "contract", derive(ts_rs::TS), ts(tag = "kind", rename_all = "lowercase"))]
+pub enum ViewShape {
     /// A cylinder with round ends; a sphere if both ends are the same.
     Capsule {
         /// One end.
@@ -544,7 +545,7 @@ pub(crate) enum ViewShape {
 
 /// A force plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct ViewPlate {
     /// Its name.
     pub name: String,
@@ -554,7 +555,7 @@ pub(crate) struct ViewPlate {
 
 /// A force of the ground on a foot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct ViewForce {
     /// `right`, `right, plates`.
     pub name: String,
@@ -570,7 +571,7 @@ pub(crate) struct ViewForce {
 
 /// A joint moment about an axis of a body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct ViewTorque {
     /// `right knee`.
     pub name: String,
@@ -590,7 +591,7 @@ pub(crate) struct ViewTorque {
 
 /// A point of a sole.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct ViewContact {
     /// Place in `bodies`.
     pub body: usize,
@@ -602,7 +603,7 @@ pub(crate) struct ViewContact {
 
 /// Page of a motion that is arriving; indices refer to the values of a [`LiveFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePage {
     /// Frame rate [Hz].
     pub rate_hz: f64,
@@ -616,7 +617,7 @@ pub(crate) struct LivePage {
 
 /// Places of a ground force.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LiveForce {
     /// The force, world [N]: x, y, z.
     pub force: [usize; 3],
@@ -626,7 +627,7 @@ pub(crate) struct LiveForce {
 
 /// A panel of a motion that is arriving.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePanel {
     /// `Knee moment`.
     pub title: String,
@@ -638,7 +639,7 @@ pub(crate) struct LivePanel {
 
 /// A curve of a motion that is arriving.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LiveCurve {
     /// Whose side.
     pub side: PageSide,
@@ -650,7 +651,7 @@ pub(crate) struct LiveCurve {
 
 /// Event `frame`: a frame with its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct LiveFrame {
     /// Its number.
     pub frame: u64,
@@ -667,81 +668,10 @@ pub struct LiveFrame {
 
 /// Event `state`: what happens to the stream.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub struct LiveState {
     /// `waiting`, `running` or `ended`.
     pub state: String,
     /// The same in a sentence.
     pub message: String,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-    use ts_rs::{Config, TS};
-
-    /// `viewer/src/contract.ts` states what the types above say. With AMBULO_WRITE=1 it is written.
-    #[test]
-    fn the_viewer_knows_the_contract() {
-        let config = Config::new().with_large_int("number");
-        let mut expected = format!(
-            "// Made from crates/ambulo-report/src/page/contract.rs by its test; do not edit.\n\n/** Version of the \
-             contract. */\nexport const FORMAT = {FORMAT};\n"
-        );
-        let declarations = [
-            Page::decl(&config),
-            Series::decl(&config),
-            PageSide::decl(&config),
-            Session::decl(&config),
-            Fact::decl(&config),
-            PageSource::decl(&config),
-            PageVerdict::decl(&config),
-            TimeAxis::decl(&config),
-            PageEvent::decl(&config),
-            PageMachine::decl(&config),
-            PagePeriod::decl(&config),
-            PageCycle::decl(&config),
-            Group::decl(&config),
-            Panel::decl(&config),
-            CycleCurve::decl(&config),
-            MeanCurve::decl(&config),
-            Band::decl(&config),
-            Trace::decl(&config),
-            Role::decl(&config),
-            Origin::decl(&config),
-            Table::decl(&config),
-            Cell::decl(&config),
-            Quality::decl(&config),
-            Judged::decl(&config),
-            PageFinding::decl(&config),
-            DataQuality::decl(&config),
-            Glance::decl(&config),
-            PageQuality::decl(&config),
-            Feasibility::decl(&config),
-            RedSpan::decl(&config),
-            View::decl(&config),
-            ViewBody::decl(&config),
-            ViewShape::decl(&config),
-            ViewPlate::decl(&config),
-            ViewForce::decl(&config),
-            ViewTorque::decl(&config),
-            ViewContact::decl(&config),
-            LivePage::decl(&config),
-            LiveForce::decl(&config),
-            LivePanel::decl(&config),
-            LiveCurve::decl(&config),
-            LiveFrame::decl(&config),
-            LiveState::decl(&config),
-        ];
-        for declaration in declarations {
-            expected += &format!("\nexport {declaration}\n");
-        }
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../viewer/src/contract.ts");
-        if std::env::var_os("AMBULO_WRITE").is_some() {
-            std::fs::write(&path, &expected).unwrap();
-        }
-        let found = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(found == expected, "{} is out of date; run this test with AMBULO_WRITE=1", path.display());
-    }
 }

@@ -9,31 +9,19 @@ use super::contract::{
 };
 use super::shell::{self, Kind};
 use super::view::drawn;
+use crate::exchange::ExchangeError;
 use crate::stage::{ForceRole, Stage, StageForce};
 use ambulo::findings::Findings;
-use ambulo::kinematics::{Trajectory, TrajectoryError};
+use ambulo::kinematics::Trajectory;
 use ambulo::model::{Model, Side};
 use ambulo::motion::{SmoothMotion, TimeGrid};
 use ambulo::spatial::Vec3;
-use ambulo_results::ResultsError;
 
 /// Joint moments with a panel: title and beginning of the coordinate's name.
 const MOMENTS: [(&str, &str); 3] =
     [("Hip flexion moment", "hip_flexion_"), ("Knee moment", "knee_angle_"), ("Ankle moment", "ankle_angle_")];
 /// Ground forces with a panel: title and end of the column's name.
 const FORCES: [(&str, &str); 2] = [("Ground force, up", "vy"), ("Ground force, forward", "vx")];
-
-/// Why there is no page of a motion that is arriving.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum LivePageError {
-    /// The default posture of the model is not possible.
-    #[error(transparent)]
-    Trajectory(#[from] TrajectoryError),
-    /// The data of the page cannot be written.
-    #[error(transparent)]
-    Results(#[from] ResultsError),
-}
 
 /// The page of a model whose results have these columns, at a frame rate [Hz] and with a delay [ms].
 ///
@@ -44,7 +32,7 @@ pub fn live_page(
     columns: &[(String, &'static str)],
     rate_hz: f64,
     delay_ms: f64,
-) -> Result<String, LivePageError> {
+) -> Result<String, ExchangeError> {
     let motion = SmoothMotion {
         grid: TimeGrid { start_s: 0.0, step_s: 0.0, frames: 1 },
         columns: vec![None; model.coordinates().len()],
@@ -118,31 +106,4 @@ fn panels(columns: &[(String, &'static str)]) -> Vec<LivePanel> {
     let ground = FORCES.iter().filter_map(|(title, end)| panel(title, &|side| format!("ground_force_{side}_{end}")));
     let moments = MOMENTS.iter().filter_map(|(title, start)| panel(title, &|side| format!("{start}{side}_moment")));
     ground.chain(moments).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ambulo::model::anthropometry::{Build, SegmentTable};
-    use ambulo_results::stream_columns;
-
-    #[test]
-    fn the_page_names_the_columns_of_arrows_and_curves() {
-        let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
-        let model = build.human().unwrap().model;
-        let columns = stream_columns(&model);
-        let html = live_page(&model, &columns, 200.0, 70.0).unwrap();
-        assert!(html.contains("id=\"ambulo-live\"") && html.contains("connect-src 'self'"));
-        let panels = panels(&columns);
-        let titles: Vec<&str> = panels.iter().map(|panel| panel.title.as_str()).collect();
-        assert_eq!(titles.len(), FORCES.len() + MOMENTS.len(), "{titles:?}");
-        for curve in panels.iter().flat_map(|panel| &panel.curves) {
-            let name = &columns[curve.column].0;
-            assert_eq!(name.contains("_r_"), curve.side == PageSide::R, "{name}");
-            assert_eq!(curve.sd.is_some(), name.starts_with("ground_force"), "{name}");
-        }
-        let [right, left] = forces(&columns).try_into().unwrap();
-        assert_eq!(columns[right.force[1]].0, "ground_force_r_vy");
-        assert_eq!(columns[left.point[2]].0, "ground_force_l_pz");
-    }
 }

@@ -7,8 +7,10 @@
 mod block;
 mod contract;
 mod live;
-mod session;
+pub(crate) mod session;
 mod shell;
+#[cfg(feature = "contract")]
+pub(crate) mod typescript;
 mod view;
 
 use ambulo_results::{Folder, ResultsError};
@@ -16,7 +18,7 @@ use contract::FORMAT;
 
 pub use block::Block;
 pub use contract::*;
-pub use live::{LivePageError, live_page};
+pub use live::live_page;
 
 /// Writes `report.html` for a folder, compared with up to two other folders.
 ///

@@ -15,7 +15,7 @@
 mod differences;
 mod norms;
 mod page;
-mod quantities;
+pub(crate) mod quantities;
 mod reference_group;
 mod summary;
 mod tables;
@@ -40,10 +40,7 @@ use ambulo::study::session::{
     CycleFacts, CycleForces, NormalCurve, PROFILE, Representative, SessionCycle, TrialFacts, exclusions, profile,
     representative,
 };
-use ambulo_results::{CYCLES, OutputFile, TIMES_AND_DISTANCES, WalkingSummary};
-
-/// Name of the page, which only a session has.
-pub const SESSION_PAGE: &str = "session.html";
+use ambulo_results::{CYCLES, OutputFile, SESSION_PAGE, TIMES_AND_DISTANCES, WalkingSummary};
 
 /// A session: its summary and its cycles.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,12 +13,10 @@ mod ground_plane;
 mod joint_places;
 mod limb;
 mod part;
-mod path;
+pub(crate) mod path;
 mod person;
 mod scene;
 mod sound;
-#[cfg(test)]
-mod tests;
 mod torque;
 mod trunk;
 
@@ -34,27 +32,27 @@ use ambulo_results::{Folder, KINEMATICS, POSES, ResultsError};
 
 /// A motion to be drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stage {
+pub struct Stage {
     /// The instants of all paths.
-    pub(crate) grid: TimeGrid,
+    pub grid: TimeGrid,
     /// The bodies that move, parents first.
-    pub(crate) bodies: Vec<StageBody>,
+    pub bodies: Vec<StageBody>,
     /// Fixed shapes, in world axes.
-    pub(crate) fixed: Vec<ViewShape>,
+    pub fixed: Vec<ViewShape>,
     /// Force plates.
-    pub(crate) plates: Vec<StagePlate>,
+    pub plates: Vec<StagePlate>,
     /// Ground forces.
-    pub(crate) forces: Vec<StageForce>,
+    pub forces: Vec<StageForce>,
     /// Joint moments.
-    pub(crate) torques: Vec<StageTorque>,
+    pub torques: Vec<StageTorque>,
     /// Points of the soles.
-    pub(crate) contacts: Vec<StageContact>,
+    pub contacts: Vec<StageContact>,
     /// Height of the floor [m].
-    pub(crate) floor_m: f64,
+    pub floor_m: f64,
     /// Weight of all bodies [N].
-    pub(crate) weight_n: f64,
+    pub weight_n: f64,
     /// Sentences on what is not shown, and why.
-    pub(crate) missing: Vec<String>,
+    pub missing: Vec<String>,
 }
 
 impl Stage {
@@ -62,7 +60,7 @@ impl Stage {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(crate) fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
+    pub fn of_folder(folder: &Folder<'_>) -> Result<Result<Stage, String>, ResultsError> {
         let is_scene = !folder.has(KINEMATICS) && folder.has(POSES);
         if is_scene { Stage::of_scene(folder) } else { Stage::of_figure(folder) }
     }
@@ -70,31 +68,31 @@ impl Stage {
 
 /// A body with its shapes and its path.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StageBody {
+pub struct StageBody {
     /// Name.
-    pub(crate) name: String,
+    pub name: String,
     /// Index in `bodies` of its parent.
-    pub(crate) parent: Option<usize>,
+    pub parent: Option<usize>,
     /// Whose side.
-    pub(crate) side: Option<Side>,
+    pub side: Option<Side>,
     /// Shapes in its axes.
-    pub(crate) shapes: Vec<ViewShape>,
+    pub shapes: Vec<ViewShape>,
     /// Its pose over time.
-    pub(crate) path: BodyPath,
+    pub path: BodyPath,
 }
 
 /// A force plate.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StagePlate {
+pub struct StagePlate {
     /// Name.
-    pub(crate) name: String,
+    pub name: String,
     /// Corners in turn [m].
-    pub(crate) corners: [[f64; 3]; 4],
+    pub corners: [[f64; 3]; 4],
 }
 
 /// The part of a force in the view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ForceRole {
+pub enum ForceRole {
     /// The results are based on it.
     Main,
     /// Force plates measured it; the results are based on a prediction.
@@ -103,47 +101,47 @@ pub(crate) enum ForceRole {
 
 /// A force with its point of application, one entry per instant; both are NaN while it does not act.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StageForce {
+pub struct StageForce {
     /// Name: `right`, `left, plates`.
-    pub(crate) name: String,
+    pub name: String,
     /// Whose side.
-    pub(crate) side: Option<Side>,
+    pub side: Option<Side>,
     /// Whether results are based on it, or it is shown for comparison.
-    pub(crate) role: ForceRole,
+    pub role: ForceRole,
     /// Point of application [m].
-    pub(crate) point: Vec<Vec3>,
+    pub point: Vec<Vec3>,
     /// The force on the body [N].
-    pub(crate) force: Vec<Vec3>,
+    pub force: Vec<Vec3>,
 }
 
 /// A joint moment about an axis of a body.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StageTorque {
+pub struct StageTorque {
     /// Name: `right knee flexion`.
-    pub(crate) name: String,
+    pub name: String,
     /// Whose side.
-    pub(crate) side: Option<Side>,
+    pub side: Option<Side>,
     /// Index in `bodies` of the body on which it acts.
-    pub(crate) body: usize,
+    pub body: usize,
     /// Centre of the joint in this body's axes [m].
-    pub(crate) center: Vec3,
+    pub center: Vec3,
     /// Unit axis of a positive moment, in the axes of this body.
-    pub(crate) axis: Vec3,
+    pub axis: Vec3,
     /// Moment [N.m/kg] in clinical sign, one entry per instant.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// The panel that shows it.
-    pub(crate) panel: String,
+    pub panel: String,
 }
 
 /// A point of a sole.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StageContact {
+pub struct StageContact {
     /// Index in `bodies`.
-    pub(crate) body: usize,
+    pub body: usize,
     /// In this body's axes [m].
-    pub(crate) place: Vec3,
+    pub place: Vec3,
     /// Whose side.
-    pub(crate) side: Option<Side>,
+    pub side: Option<Side>,
 }
 
 /// A cylinder with round ends.

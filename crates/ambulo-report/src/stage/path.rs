@@ -23,11 +23,11 @@ fn unit_quaternion(rotation: &Matrix3<f64>) -> UnitQuaternion<f64> {
 
 /// Positions and orientations, one entry per instant.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct BodyPath {
+pub struct BodyPath {
     /// Origin of the body in the world [m].
-    pub(crate) position: Vec<Vec3>,
+    pub position: Vec<Vec3>,
     /// World from body; neighbouring quaternions never differ by sign only.
-    pub(crate) rotation: Vec<UnitQuaternion<f64>>,
+    pub rotation: Vec<UnitQuaternion<f64>>,
 }
 
 impl BodyPath {
@@ -43,14 +43,15 @@ impl BodyPath {
 
     /// Adds the next instant. q and -q are the same orientation: the one nearer to the last is stored, so that linear
     /// interpolation between neighbours takes the short way.
-    pub(crate) fn push_turned(&mut self, position: Vec3, rotation: UnitQuaternion<f64>) {
+    pub fn push_turned(&mut self, position: Vec3, rotation: UnitQuaternion<f64>) {
         let flips = self.rotation.last().is_some_and(|last| last.coords.dot(&rotation.coords) < 0.0);
         self.position.push(position);
         self.rotation.push(if flips { UnitQuaternion::new_unchecked(-rotation.into_inner()) } else { rotation });
     }
 
     /// A point of the body in the world [m].
-    pub(crate) fn place(&self, instant: usize, point: Vec3) -> Vec3 {
+    #[must_use]
+    pub fn place(&self, instant: usize, point: Vec3) -> Vec3 {
         self.position[instant] + self.rotation[instant] * point
     }
 }

@@ -1,10 +1,9 @@
 //! Size of the change that made a walk dynamically consistent, and of its remaining residual forces.
 
-use super::settings::ConsistentWalkError;
 use super::walk::ConsistentWalk;
 use crate::model::{CoordinateKind, Model, Side};
 use crate::numerics::Progress;
-use crate::optimal::{Sample, Solution, WalkProblem};
+use crate::optimal::{OptimalWalkError, Sample, Solution, WalkProblem};
 
 /// Number of instants per cycle that are evaluated.
 const INSTANTS: usize = 200;
@@ -67,11 +66,7 @@ impl CorrectionReport {
     ///
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
-    pub fn of(
-        problem: &WalkProblem,
-        solution: &Solution,
-        cycle_s: f64,
-    ) -> Result<CorrectionReport, ConsistentWalkError> {
+    pub fn of(problem: &WalkProblem, solution: &Solution, cycle_s: f64) -> Result<CorrectionReport, OptimalWalkError> {
         let curves = problem.problem.at(&problem.guess)?;
         let times: Vec<f64> = (0..INSTANTS).map(|k| cycle_s * k as f64 / INSTANTS as f64).collect();
         let samples = solution.samples(&times)?;
@@ -98,7 +93,7 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// Does not fail for a walk that was computed.
-    pub fn report(&self) -> Result<CorrectionReport, ConsistentWalkError> {
+    pub fn report(&self) -> Result<CorrectionReport, OptimalWalkError> {
         CorrectionReport::of(&self.problem, &self.solution, self.walk.cycle_s())
     }
 }

@@ -4,14 +4,14 @@
 //! that of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from outside.
 //! Pinned by: tests/walk_changes.rs
 
-use super::settings::{ConsistentWalkError, ConsistentWalkSettings};
+use super::settings::ConsistentWalkSettings;
 use super::walk::{ConsistentWalk, make_consistent_walk, root_of, soft_ground};
 use crate::engine::{Integrator, Signal, StepSettings};
 use crate::findings::Findings;
 use crate::gait::{PaceRamp, Walk};
 use crate::model::Model;
 use crate::model::anthropometry::Human;
-use crate::optimal::{FINE_STAGES, Passage, PassageEnd, STAGES, Solution, WalkProblem};
+use crate::optimal::{FINE_STAGES, OptimalWalkError, Passage, PassageEnd, STAGES, Solution, WalkProblem};
 use crate::walking::{WalkRecording, Walker, WalkingError};
 
 /// Steps of the new pace after a change in which the walk settles.
@@ -47,7 +47,7 @@ pub fn make_changing_walk(
     human: &Human,
     walk: &Walk,
     settings: &ConsistentWalkSettings,
-) -> Result<ChangingWalk, ConsistentWalkError> {
+) -> Result<ChangingWalk, OptimalWalkError> {
     let mut made = ChangingWalk { walk: walk.clone(), paces: Vec::new(), standing: None, changes: Vec::new() };
     let ramps = walk.pace_ramps();
     if ramps.is_empty() && walk.clock(0.0).stands() {
@@ -81,7 +81,7 @@ impl ChangingWalk {
         human: &Human,
         pace: &Walk,
         settings: &ConsistentWalkSettings,
-    ) -> Result<usize, ConsistentWalkError> {
+    ) -> Result<usize, OptimalWalkError> {
         if let Some(known) = self.paces.iter().position(|known| known.walk() == pace) {
             return Ok(known);
         }
@@ -96,7 +96,7 @@ impl ChangingWalk {
         settings: &ConsistentWalkSettings,
         number: usize,
         (ramp, next_s): (&PaceRamp, f64),
-    ) -> Result<Change, ConsistentWalkError> {
+    ) -> Result<Change, OptimalWalkError> {
         let walk = self.walk.clone();
         let end_s = ramp.start_s + ramp.duration_s;
         let settling_s = 0.5 * SETTLING_STEPS * ramp.paces[1].cycle_s();
@@ -110,7 +110,7 @@ impl ChangingWalk {
             }
         }
         let [Some(before), Some(after)] = paces.map(|pace| self.end(pace)) else {
-            return Err(ConsistentWalkError::Order);
+            return Err(OptimalWalkError::Order);
         };
         let passage = Passage { change: number, start_s: ramp.start_s, duration_s, ends: [before, after] };
         let problem = WalkProblem::passage(human, &human.soles, settings.shoes, &walk, &settings.changes, &passage)?;
@@ -119,12 +119,7 @@ impl ChangingWalk {
     }
 
     /// Solves how the figure stands at a time [s], once.
-    fn stand(
-        &mut self,
-        human: &Human,
-        settings: &ConsistentWalkSettings,
-        time_s: f64,
-    ) -> Result<(), ConsistentWalkError> {
+    fn stand(&mut self, human: &Human, settings: &ConsistentWalkSettings, time_s: f64) -> Result<(), OptimalWalkError> {
         if self.standing.is_none() {
             let ConsistentWalkSettings { shoes, costs, .. } = settings;
             let problem = WalkProblem::standing(human, &human.soles, *shoes, &self.walk, costs, time_s)?;

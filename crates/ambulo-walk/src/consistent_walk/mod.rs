@@ -21,6 +21,6 @@ pub use adjustment::{Adjustment, CorrectionReport, Magnitude};
 #[doc(hidden)]
 pub use changing::ChangingWalk;
 pub use changing::make_changing_walk;
-pub use settings::{ConsistentWalkError, ConsistentWalkSettings};
+pub use settings::ConsistentWalkSettings;
 pub(super) use walk::soft_ground;
 pub use walk::{ConsistentWalk, make_consistent_walk};

@@ -1,6 +1,6 @@
 //! A dynamically consistent walk: how it is computed, its motion, and the walk simulated with it.
 
-use super::settings::{ConsistentWalkError, ConsistentWalkSettings};
+use super::settings::ConsistentWalkSettings;
 use crate::contact::HuntCrossley;
 use crate::engine::{ImpactLaw, Integrator, Signal, StepSettings};
 use crate::findings::Findings;
@@ -8,7 +8,7 @@ use crate::gait::Walk;
 use crate::gait::machine::repeats;
 use crate::model::Model;
 use crate::model::anthropometry::Human;
-use crate::optimal::{Continuation, FINE_STAGES, STAGES, Sample, Solution, Span, WalkProblem};
+use crate::optimal::{Continuation, FINE_STAGES, OptimalWalkError, STAGES, Sample, Solution, Span, WalkProblem};
 use crate::spatial::Vec3;
 use crate::walking::{GroundContact, Shoes, WalkRecording, Walker, WalkingError};
 
@@ -31,9 +31,9 @@ pub fn make_consistent_walk(
     human: &Human,
     walk: &Walk,
     settings: &ConsistentWalkSettings,
-) -> Result<ConsistentWalk, ConsistentWalkError> {
+) -> Result<ConsistentWalk, OptimalWalkError> {
     if !repeats(walk) {
-        return Err(ConsistentWalkError::Machines { gait: walk.name().to_owned() });
+        return Err(OptimalWalkError::Machines { gait: walk.name().to_owned() });
     }
     let span = if walk.is_symmetric() { Span::MirroredHalfCycle } else { Span::Cycle };
     let problem = WalkProblem::over(span, human, &human.soles, settings.shoes, walk, &settings.costs)?;
@@ -65,7 +65,7 @@ impl ConsistentWalk {
     ///
     /// # Errors
     /// Does not fail for a walk that was computed.
-    pub fn planned(&self, times_s: &[f64]) -> Result<Vec<Sample>, ConsistentWalkError> {
+    pub fn planned(&self, times_s: &[f64]) -> Result<Vec<Sample>, OptimalWalkError> {
         Ok(self.solution.samples(times_s)?)
     }
 

@@ -10,7 +10,7 @@
 //! | `share_of` | s | 1 | 1 for hips, knees, ankles and the lumbar joint; 0.2 for toes; 0.3 for others |
 //! | `size_of` | m H / (75 kg · 1.75 m) | 1 | mass times height of the figure over that of the adult |
 //! | `deviation` | x - x* | rad, m; rad/s, m/s | coordinates but the place forward, then all rates |
-//! | `FootLever::lever_m` | c L | m | share c of the length L of the foot |
+//! | `lever_m` | c L | m | share c of the length L of the foot |
 //! | `loads_n` | F | N | vertical force on the foot |
 //! | `higher` | | m | height of the ground, and what longer legs add to the height of the pelvis |
 //!
@@ -36,14 +36,6 @@ const ADULT: f64 = 75.0 * 1.75;
 const ANKLE_LEVER: f64 = 0.35;
 const TOE_LEVER: f64 = 0.1;
 
-/// The lever of the load of a foot by which feedback may turn it.
-#[derive(Debug, Clone, Copy)]
-struct FootLever {
-    /// 0 right, 1 left.
-    foot: usize,
-    lever_m: f64,
-}
-
 /// Impedances and feedback of a figure.
 #[derive(Debug, Clone)]
 pub(super) struct Feedback {
@@ -52,8 +44,9 @@ pub(super) struct Feedback {
     pub(super) joints: Vec<usize>,
     /// Coordinates of the first columns of gains; rates follow.
     places: Vec<usize>,
-    /// By coordinate; none where it turns no foot.
-    levers: Vec<Option<FootLever>>,
+    /// By coordinate: the foot that it turns (0 right, 1 left), and the lever of its load by which feedback may turn it
+    /// [m]; none where it turns no foot.
+    levers: Vec<Option<(usize, f64)>>,
     /// Balance by foot placement instead of gains.
     placed_feet: Option<PlacedFeet>,
     /// Feedback that does not act yet, the oldest first.
@@ -128,7 +121,8 @@ impl Feedback {
         let deviation = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
         if let Some(torques) = plan.feedback(phase.at, &deviation) {
             for (joint, torque) in self.joints.iter().zip(torques.iter()) {
-                let most = self.levers[*joint].map_or(f64::INFINITY, |at| at.lever_m * loads_n[at.foot].max(0.0));
+                let most =
+                    self.levers[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
                 feedback[*joint] = (-torque).clamp(-most, most);
             }
         }
@@ -187,7 +181,7 @@ fn impedances(human: &Human, joints: &[usize], settings: &ControlSettings) -> Ve
 }
 
 /// The levers of coordinates that turn a foot or its toes.
-fn levers(human: &Human) -> Vec<Option<FootLever>> {
+fn levers(human: &Human) -> Vec<Option<(usize, f64)>> {
     let anatomy = human.model.anatomy();
     let of = |id: CoordinateId| {
         let meaning = anatomy.meaning(id)?;
@@ -197,7 +191,7 @@ fn levers(human: &Human) -> Vec<Option<FootLever>> {
             _ => return None,
         };
         let foot = usize::from(meaning.side? == Side::Left);
-        Some(FootLever { foot, lever_m: share * human.dimensions.foot_length })
+        Some((foot, share * human.dimensions.foot_length))
     };
     human.model.coordinate_ids().map(of).collect()
 }

@@ -1,8 +1,8 @@
 //! Settings of a controller, and why there is none.
 
 use crate::dynamics::CurvedJointError;
-use crate::engine::figure_tree::FigureJointError;
-use crate::optimal::StandingError;
+use crate::engine::WorldError;
+use crate::optimal::OptimalWalkError;
 use crate::walking::{TorqueSeries, WalkingError};
 
 /// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they
@@ -127,7 +127,7 @@ impl ControlSettings {
 pub enum ControlError {
     /// A joint that the simulator cannot move by motors.
     #[error(transparent)]
-    Joint(#[from] FigureJointError),
+    Joint(#[from] WorldError),
     /// A plan whose forces cannot be computed.
     #[error(transparent)]
     Plan(#[from] CurvedJointError),
@@ -199,7 +199,7 @@ pub enum ControlError {
     },
     /// A figure that cannot stop, or walk off.
     #[error(transparent)]
-    NoStanding(#[from] StandingError),
+    NoStanding(#[from] OptimalWalkError),
     /// Standing of another walk, or without gains.
     #[error(
         "found movements of standing of a walk at {found:.2} m/s; expected those of the slowest walk of the \

@@ -5,6 +5,7 @@
 //! hinges of one joint are links without mass. The root of a planar figure is a planar joint, that of a figure in three
 //! dimensions is a free body.
 
+use super::check::WorldError;
 use super::joint::JointKind;
 use super::state::rates;
 use super::{Owner, RigidBody, Surface, TreeJoint, World, WorldState};
@@ -24,16 +25,6 @@ pub(crate) enum FigurePlace {
     Joint { child: usize, coordinate: usize },
     /// One of the angles about z, x, y and the distances along x, y, z of a free root, in this order.
     Root(usize),
-}
-
-/// A joint that cannot be one of the world.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("joint `{joint}`: found {found}; expected hinges, and a planar or a free root")]
-pub struct FigureJointError {
-    /// The joint.
-    pub joint: String,
-    /// Found value.
-    pub found: String,
 }
 
 /// The bodies and joints of a figure in a world.
@@ -69,7 +60,7 @@ pub(crate) struct BodyStart {
 
 impl FigureTree {
     /// Adds bodies and joints of a model to a world, at rest in its origin; names begin with `prefix`.
-    pub(crate) fn add(world: &mut World, model: &Model, prefix: &str) -> Result<FigureTree, FigureJointError> {
+    pub(crate) fn add(world: &mut World, model: &Model, prefix: &str) -> Result<FigureTree, WorldError> {
         let first_body = world.bodies.len();
         world.bodies.extend(model.bodies().iter().map(|body| RigidBody {
             name: format!("{prefix}{}", body.name),
@@ -198,13 +189,17 @@ struct JointOf<'a> {
 }
 
 impl JointOf<'_> {
-    fn wrong(&self, found: &str) -> FigureJointError {
-        let joint = self.model.bodies()[self.body.index()].joint.name.clone();
-        FigureJointError { joint, found: found.to_owned() }
+    fn wrong(&self, found: &str) -> WorldError {
+        let name = self.model.bodies()[self.body.index()].joint.name.clone();
+        WorldError {
+            what: "joint",
+            name,
+            problem: format!("found {found}; expected hinges, and a planar or a free root"),
+        }
     }
 
     /// Direction of an axis for a positive coordinate.
-    fn moving(&self, axis: &JointAxis) -> Result<(CoordinateId, Vec3), FigureJointError> {
+    fn moving(&self, axis: &JointAxis) -> Result<(CoordinateId, Vec3), WorldError> {
         let Displacement::Follows(id, function) = &axis.displacement else {
             return Err(self.wrong("an axis with a fixed value"));
         };
@@ -216,7 +211,7 @@ impl JointOf<'_> {
         }
     }
 
-    fn add_root(&self, world: &mut World, places: &mut [FigurePlace]) -> Result<(), FigureJointError> {
+    fn add_root(&self, world: &mut World, places: &mut [FigurePlace]) -> Result<(), WorldError> {
         let joint = &self.model.bodies()[self.body.index()].joint;
         let axes = |axes: &[JointAxis]| axes.iter().map(|axis| self.moving(axis)).collect::<Result<Vec<_>, _>>();
         let (turns, slides) = (axes(&joint.rotations)?, axes(&joint.translations)?);
@@ -242,12 +237,7 @@ impl JointOf<'_> {
     }
 
     /// Hinges about all axes of the joint, one after the other.
-    fn add_hinges(
-        &self,
-        parent: BodyId,
-        world: &mut World,
-        places: &mut [FigurePlace],
-    ) -> Result<(), FigureJointError> {
+    fn add_hinges(&self, parent: BodyId, world: &mut World, places: &mut [FigurePlace]) -> Result<(), WorldError> {
         let joint = &self.model.bodies()[self.body.index()].joint;
         if !joint.translations.is_empty() || joint.rotations.is_empty() {
             return Err(self.wrong("slides, or nothing that moves"));

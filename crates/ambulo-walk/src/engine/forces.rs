@@ -3,7 +3,7 @@
 use crate::dynamics::Convergence;
 use crate::spatial::{Vec3, Wrench};
 
-/// Mean forces over one step: impulses divided by its duration.
+/// Forces of one step ([`StepWorkspace::forces`](super::StepWorkspace::forces)), or at one instant of a scene.
 #[derive(Debug, Clone, Default)]
 pub struct StepForces {
     /// Wrench on each body by its joint, at the body's mass centre, world axes; zero for free bodies.

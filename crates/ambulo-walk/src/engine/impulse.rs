@@ -16,7 +16,7 @@ use super::joint::advance;
 use super::projection::still_closing;
 use super::state::{RowKey, WorldState};
 use super::touch::obstacle_motion;
-use super::workspace::{StepSettings, StepWorkspace};
+use super::workspace::{StepKind, StepSettings, StepWorkspace};
 use super::world::{ImpactLaw, Owner, TreeJoint, World};
 use crate::dynamics::{ConstraintGroup, Convergence, Law, LinkError, Six, solve_graph};
 use crate::findings::{Code, Findings};
@@ -37,7 +37,7 @@ pub(super) fn impulse_step(
     w: &mut StepWorkspace,
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
-    w.step_s = h;
+    (w.step_s, w.kind) = (h, StepKind::Impulses);
     w.prescribed.fill(world, state.time_s + h);
     obstacle_motion(world, state.time_s, h, &mut w.contact.obstacles);
     let closing = still_closing(world, state);

@@ -27,7 +27,7 @@ use super::joint::advance;
 use super::projection::still_closing;
 use super::state::{RowKey, WorldState};
 use super::touch::obstacle_motion;
-use super::workspace::{StepSettings, StepWorkspace};
+use super::workspace::{StepKind, StepSettings, StepWorkspace};
 use super::world::{ImpactLaw, World};
 use crate::dynamics::{BodyTerms, Convergence, LinkError};
 use crate::findings::Findings;
@@ -49,25 +49,30 @@ pub(super) fn midpoint_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     let whole = settings.step_s;
-    let needs_impulses = is_driven(world) || world.impact == ImpactLaw::Sticking;
-    if needs_impulses || still_closing(world, state) || has_new_loop(world, state) {
+    if needs_impulses(world) || still_closing(world, state) || has_new_loop(world, state) {
         return impulse_step(world, state, whole, settings, w, findings);
     }
     let half = 0.5 * whole;
     w.prescribed.fill(world, state.time_s + whole);
+    w.kind = StepKind::Midpoint;
     w.midpoint(world, state, half, settings, findings)?;
     Ok(w.equations.solution.convergence)
 }
 
 /// Whether a closed loop is new: velocities may contradict it. The midpoint rule would turn the contradiction around in
 /// every step, and a step of impulses removes it.
-fn has_new_loop(world: &World, state: &WorldState) -> bool {
+pub(super) fn has_new_loop(world: &World, state: &WorldState) -> bool {
     let is_new = |number: usize| !state.guess.contains_key(&RowKey::Closure(number));
     world.closures.iter().enumerate().any(|(number, closure)| closure.active && is_new(number))
 }
 
+/// Whether every step of a world is one of impulses.
+pub(super) fn needs_impulses(world: &World) -> bool {
+    is_driven(world) || world.impact == ImpactLaw::Sticking
+}
+
 /// Whether anything prescribes the motion of a body: its velocities at the end of a step are then no result of forces.
-fn is_driven(world: &World) -> bool {
+pub(super) fn is_driven(world: &World) -> bool {
     world.joints.iter().any(|joint| joint.follows.is_some() || joint.coordinates.iter().any(|c| c.drive.is_some()))
 }
 

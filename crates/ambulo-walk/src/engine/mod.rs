@@ -66,6 +66,7 @@ pub(crate) mod forces;
 mod impact;
 mod impulse;
 pub(crate) mod projection;
+pub(crate) mod row;
 mod smooth;
 pub(crate) mod soles;
 pub(crate) mod start;
@@ -75,7 +76,6 @@ pub(crate) mod workspace;
 
 pub use check::WorldError;
 pub use energy::{Energy, energy};
-pub use figure_tree::FigureJointError;
 pub use forces::{ContactForce, Impact, StepForces};
 pub use joint::JointKind;
 pub use projection::largest_joint_error;

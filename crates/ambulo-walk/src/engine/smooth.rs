@@ -22,11 +22,12 @@
 //! page).
 
 use super::assemble::{Assembly, Slot, closing_rows, twist};
+use super::forces::ContactForce;
 use super::joint::{Frames, JointKind, MOST, orthonormal};
 use super::projection::{closure_errors, closure_frames};
 use super::state::{RowKey, WorldState, rates};
 use super::workspace::Equations;
-use super::world::{Figure, TreeJoint, World};
+use super::world::{Figure, Owner, TreeJoint, World};
 use crate::dynamics::{
     BodyTerms, Constraint, GraphWorkspace, Link, LinkError, Six, SolverSettings, parents_first, project_displacements,
     solve_graph,
@@ -112,6 +113,82 @@ pub(crate) fn accelerations(
     let motion = Motion { delta: vec![0.0; tree.coordinates], rates: tree.start_rates(state) };
     tree.slope(world, &motion, state.time_s, &mut state.clone(), settings, solver, first)?;
     Ok(first.solution.motions.iter().map(twist).collect())
+}
+
+/// What is known of the effort along an undriven coordinate [N.m or N].
+#[derive(Debug, Clone, Copy)]
+pub(super) enum KnownEffort {
+    /// All of it.
+    All(f64),
+    /// Limits and dry friction; springs and motors obey their laws.
+    Besides(f64),
+}
+
+/// Forces that are known when a world is balanced at an instant.
+pub(super) struct Known<'a> {
+    /// Forces at contact points.
+    pub(super) contacts: &'a [ContactForce],
+    /// Efforts by joint and coordinate; those of driven coordinates are not used.
+    pub(super) efforts: Vec<Vec<KnownEffort>>,
+}
+
+impl Known<'_> {
+    /// Adds the forces to a graph of accelerations.
+    fn act(&self, world: &World, state: &WorldState, assembly: &mut Assembly) {
+        for contact in self.contacts {
+            for (surface, force) in [(contact.surfaces.0, contact.force), (contact.surfaces.1, -contact.force)] {
+                let Owner::Body(body) = world.surfaces[surface].owner else { continue };
+                let moment = (contact.point - state.poses[body].translation).cross(&force);
+                assembly.graph.wrenches[body] += Six::new(moment.x, moment.y, moment.z, force.x, force.y, force.z);
+            }
+        }
+        for (index, slot) in assembly.slots.iter().enumerate() {
+            let known = slot.joint.and_then(|joint| self.efforts[joint].get(slot.coordinate));
+            match known {
+                Some(KnownEffort::All(effort)) => {
+                    (assembly.graph.efforts[index], assembly.graph.rotors[index]) = (*effort, 0.0);
+                }
+                Some(KnownEffort::Besides(effort)) => assembly.graph.efforts[index] += effort,
+                None => {}
+            }
+        }
+    }
+}
+
+/// Solves for the accelerations and the unknown forces of a state in which coordinates have these rates; sets the
+/// twists of the bodies. The forces stay in `stage`.
+pub(super) fn balance(
+    world: &World,
+    state: &mut WorldState,
+    rates: Vec<f64>,
+    known: &Known<'_>,
+    settings: &SolverSettings,
+    solver: &mut GraphWorkspace,
+    stage: &mut Equations,
+) -> Result<(), LinkError> {
+    let tree = Tree::new(world, state);
+    let still = || vec![0.0; tree.coordinates];
+    let mut motion = Motion { delta: still(), rates };
+    tree.place(world, &mut motion, state);
+    let mut slope = Motion { delta: still(), rates: still() };
+    tree.fill(world, state, &motion, &mut slope, &mut stage.assembly);
+    known.act(world, state, &mut stage.assembly);
+    stage.solution.lambda.clear();
+    solve_graph(&stage.assembly.graph, settings, solver, &mut stage.solution)?;
+    Ok(())
+}
+
+/// Rates of all coordinates of a state, for [`balance`].
+pub(super) fn rates_at(world: &World, state: &WorldState) -> Vec<f64> {
+    Tree::new(world, state).start_rates(state)
+}
+
+/// The mean of the rates before and after a step of impulses, whose velocities afterwards belong to the axes before.
+pub(super) fn mean_rates(world: &World, before: &WorldState, after: &[Twist]) -> Vec<f64> {
+    let tree = Tree::new(world, before);
+    let later = WorldState { twists: after.to_vec(), ..before.clone() };
+    let pairs = tree.start_rates(before).into_iter().zip(tree.start_rates(&later));
+    pairs.map(|(one, other)| 0.5 * (one + other)).collect()
 }
 
 impl Motion {

@@ -12,7 +12,7 @@ use super::midpoint::midpoint_step;
 use super::smooth::{self, runge_kutta};
 use super::state::WorldState;
 use super::touch::{ObstaclePoses, obstacle_motion};
-use super::workspace::{Integrator, SmoothWorkspace, StepSettings, StepWorkspace};
+use super::workspace::{Integrator, SmoothWorkspace, StepKind, StepSettings, StepWorkspace};
 use super::world::{ContactLaw, JointCoordinate, World};
 use crate::dynamics::{Convergence, LinkError, SolverSettings};
 use crate::findings::Findings;
@@ -78,6 +78,7 @@ fn smooth_step(
     findings: &mut Findings,
 ) -> Result<Convergence, LinkError> {
     let mut left = settings.step_s;
+    w.kind = StepKind::Smooth;
     for _ in 0..MOST_IMPACTS {
         if !smooth_here(world, state, w, left) {
             break;

@@ -56,6 +56,18 @@ impl Default for StepSettings {
     }
 }
 
+/// The method of a step, which may differ from the integrator of the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum StepKind {
+    /// [`Integrator::Impulse`].
+    #[default]
+    Impulses,
+    /// [`Integrator::Midpoint`].
+    Midpoint,
+    /// [`Integrator::RungeKutta`], with the forces of its start.
+    Smooth,
+}
+
 /// A constraint graph and its solution.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Equations {
@@ -124,6 +136,8 @@ pub struct StepWorkspace {
     pub(crate) impacts: StepImpacts,
     /// Time over which the multipliers of the last solution act [s].
     pub(crate) step_s: f64,
+    /// The method of the last step.
+    pub(crate) kind: StepKind,
     /// Whether the motions of the last solution are those in the middle of a step ([`super::midpoint`]).
     pub(crate) halfway: bool,
     /// Whether a drive gave way in the last solution of impulses.
@@ -133,8 +147,9 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step: their means over the step for [`Integrator::Impulse`] and [`Integrator::Midpoint`],
-    /// their values at its start for [`Integrator::RungeKutta`].
+    /// The forces of the last step. Those of [`Integrator::Impulse`] and [`Integrator::RungeKutta`] belong to its
+    /// start, those of [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a
+    /// step of impulses belong to half a step earlier; frames of a scene have all at one instant.
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         let (graph, h) = (&self.equations.assembly.graph, self.step_s);
@@ -179,6 +194,17 @@ impl StepWorkspace {
             closing: closing.collect(),
             convergence: self.equations.solution.convergence,
         }
+    }
+
+    /// Effort of limits and dry friction along a coordinate in the last step [N.m or N].
+    pub(super) fn unilateral_effort(&self, joint: usize, coordinate: usize) -> f64 {
+        let place = (joint, coordinate);
+        let groups = self.equations.assembly.keys.iter().zip(&self.equations.assembly.graph.groups);
+        let own = groups.filter(|(key, _)| match key {
+            RowKey::Friction(j, k) | RowKey::LowerLimit(j, k) | RowKey::UpperLimit(j, k) => (*j, *k) == place,
+            _ => false,
+        });
+        own.map(|(_, group)| self.equations.solution.lambda[group.rows.start]).sum::<f64>() / self.step_s
     }
 
     /// Closures with forces that the motion of the last step does not determine, because their rows repeat others.

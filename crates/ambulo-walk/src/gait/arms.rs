@@ -35,59 +35,36 @@ const ELBOW_POINTS: [[f64; 3]; 3] = [[5.76, 14.0, 9.66], [18.64, 44.0, 62.81], [
 /// Relative speeds R [1/s].
 const ELBOW_SPEEDS: [f64; 3] = [0.46, 1.3, 2.53];
 
-/// The curves of shoulder and elbow of one side.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ArmCurves {
-    elbow: CyclicCurve,
-}
-
 /// R at V* = 1 [1/s].
 fn relative_speed() -> f64 {
     (GRAVITY * THIGH_AND_SHANK / SHARE_OF_LEG).sqrt() / THIGH_AND_SHANK
 }
 
-impl Default for ArmCurves {
-    fn default() -> ArmCurves {
-        ArmCurves::new()
-    }
+/// Elbow flexion [rad]; its knots depend on the dimensionless speed.
+pub(super) fn elbow() -> CyclicCurve {
+    let angles = ELBOW_POINTS.map(|points| parabola(ELBOW_SPEEDS.map(|r| r / relative_speed()), points).scaled(DEGREE));
+    let knot = |k: usize| {
+        let (before, after) = ((k + 2) % 3, (k + 1) % 3);
+        let arc = |other: usize| cosine_curvature(&angles[k], &angles[other], ELBOW_TIMES[other] - ELBOW_TIMES[k]);
+        let mean = [0, 1, 2].map(|i| 0.5 * (arc(before).coefficients[i] + arc(after).coefficients[i]));
+        Knot {
+            name: ["contact", "swing", "late swing"][k].into(),
+            begins: [Some("F"), Some("E"), None][k].map(String::from),
+            phase: SpeedLaw::constant(ELBOW_TIMES[k]),
+            angle: angles[k],
+            slope: SpeedLaw::default(),
+            curvature: SpeedLaw { coefficients: mean },
+            height_share: 0.0,
+        }
+    };
+    CyclicCurve::of(vec![knot(0), knot(1), knot(2)])
 }
 
-impl ArmCurves {
-    /// The curves; the knots of the elbow depend on the dimensionless speed.
-    #[must_use]
-    pub fn new() -> ArmCurves {
-        let angles =
-            ELBOW_POINTS.map(|points| parabola(ELBOW_SPEEDS.map(|r| r / relative_speed()), points).scaled(DEGREE));
-        let knot = |k: usize| {
-            let (before, after) = ((k + 2) % 3, (k + 1) % 3);
-            let arc = |other: usize| cosine_curvature(&angles[k], &angles[other], ELBOW_TIMES[other] - ELBOW_TIMES[k]);
-            let mean = [0, 1, 2].map(|i| 0.5 * (arc(before).coefficients[i] + arc(after).coefficients[i]));
-            Knot {
-                name: ["contact", "swing", "late swing"][k].into(),
-                begins: [Some("F"), Some("E"), None][k].map(String::from),
-                phase: SpeedLaw::constant(ELBOW_TIMES[k]),
-                angle: angles[k],
-                slope: SpeedLaw::default(),
-                curvature: SpeedLaw { coefficients: mean },
-                height_share: 0.0,
-            }
-        };
-        ArmCurves { elbow: CyclicCurve::of(vec![knot(0), knot(1), knot(2)]) }
-    }
-
-    /// Shoulder flexion [rad].
-    #[must_use]
-    pub fn shoulder(phase: Jet, speed: Jet) -> Jet {
-        let r = speed * relative_speed();
-        let (_, cos) = ((phase - phase.value.floor()) * TAU).sin_cos();
-        (r * -4.94 - r * cos * 9.88 + 3.0) * DEGREE
-    }
-
-    /// Elbow flexion [rad].
-    #[must_use]
-    pub fn elbow(&self) -> &CyclicCurve {
-        &self.elbow
-    }
+/// Shoulder flexion [rad].
+pub(super) fn shoulder(phase: Jet, speed: Jet) -> Jet {
+    let r = speed * relative_speed();
+    let (_, cos) = ((phase - phase.value.floor()) * TAU).sin_cos();
+    (r * -4.94 - r * cos * 9.88 + 3.0) * DEGREE
 }
 
 /// The quadratic through three points, by divided differences.

@@ -49,7 +49,6 @@ mod pace_plan;
 mod stride;
 mod walk;
 
-pub use arms::ArmCurves;
 pub use coordinates::{COORDINATE_NAMES, Trunk, WalkCoordinates, coordinates};
 pub use cyclic_curve::{CyclicCurve, Knot};
 pub use error::GaitError;
@@ -73,7 +72,7 @@ pub use stride::{
 };
 #[doc(hidden)]
 pub use sub_cycle::SubCycle;
+pub use walk::{LegAngles, Phases, Walk};
 #[doc(hidden)]
-pub use walk::WalkPosture;
-pub use walk::{LegAngles, PaceRamp, Phases, Walk};
+pub use walk::{PaceRamp, WalkPosture};
 pub use wave::Wave;

@@ -11,7 +11,7 @@
 //! with the share of walking w and the relative step length l of the [`Clock`]. Pinned by: tests/gait_walk.rs,
 //! tests/gait_speed.rs.
 
-use super::arms::ArmCurves;
+use super::arms;
 use super::curve_check::check;
 use super::cyclic_curve::{CyclicCurve, Knot};
 use super::error::GaitError;
@@ -38,7 +38,7 @@ const SHORTEST_CHANGE_S: f64 = 0.1;
 pub struct Walk {
     plan: PacePlan,
     laws: Laws,
-    arms: ArmCurves,
+    elbow: CyclicCurve,
     /// The settings that the walk is made of.
     gait: Gait,
     /// Time at which the machines of the gait begin [s].
@@ -96,8 +96,7 @@ impl Walk {
     /// overlap.
     pub fn new(gait: &Gait, leg_length: f64, findings: &mut Findings) -> Result<Walk, GaitError> {
         let stands = gait.pace.speed == Some(Speed::MetersPerSecond(0.0));
-        let first = PaceOf { gait, leg_length }.walking(&gait.pace_at_start()?)?;
-        let law = first.law;
+        let (law, law_speed) = at_pace(gait, &gait.pace_at_start()?, leg_length)?;
         let mut laws = Laws::built_in(gait.style)?;
         for (joint, own) in LegJoint::ALL.into_iter().zip(&gait.curves) {
             if let Some(curve) = own {
@@ -107,10 +106,10 @@ impl Walk {
             *laws.legs.of_mut(joint) = scaled(&curve, joint, law.length_scale, gait.step_height);
             refuse_faults(laws.legs.of(joint), joint, &laws)?;
         }
-        report_range(law.speed(first.law_speed), leg_length, findings);
-        let initial = SteadyPace { walks: !stands, ..first.relative_to(&law) };
+        report_range(law.speed(law_speed), leg_length, findings);
+        let initial = SteadyPace { walks: !stands, ..relative_pace((law, law_speed), &law) };
         let plan = PacePlan::constant(law, initial, 0.0);
-        let mut walk = Walk { plan, laws, arms: ArmCurves::new(), gait: gait.clone(), machines_begin_s: 0.0 };
+        let mut walk = Walk { plan, laws, elbow: arms::elbow(), gait: gait.clone(), machines_begin_s: 0.0 };
         if stands {
             // The right leg swings first.
             let off = walk.foot_off(&walk.clock(0.0));
@@ -137,14 +136,14 @@ impl Walk {
             SteadyPace { walks: false, ..before }
         } else {
             let pace = self.gait.pace.with(change.speed, change.step_length, change.step_frequency);
-            let resolved = PaceOf { gait: &self.gait, leg_length: self.leg_length() }.walking(&pace)?;
-            let to = resolved.relative_to(self.plan.law());
+            let (law, law_speed) = at_pace(&self.gait, &pace, self.leg_length())?;
+            let to = relative_pace((law, law_speed), self.plan.law());
             for joint in LegJoint::ALL {
                 let curve = self.laws.legs.of(joint);
                 let longer = curve.mapped(|knot| knot.scaled_about(joint.neutral(), to.length));
                 refuse_faults(&longer, joint, &self.laws)?;
             }
-            report_range(resolved.law.speed(resolved.law_speed), self.leg_length(), findings);
+            report_range(law.speed(law_speed), self.leg_length(), findings);
             to
         };
         let paced = if before.walks { before } else { to };
@@ -193,6 +192,7 @@ impl Walk {
 
     /// The constant paces before, between and after the changes as gaits without changes, and for each change its start
     /// and duration [s]. While the figure stands, the gait of the change from or to standing.
+    #[doc(hidden)]
     #[must_use]
     pub fn pace_ramps(&self) -> Vec<PaceRamp> {
         let ramps = self.plan.ramps();
@@ -254,10 +254,10 @@ impl Walk {
         &self.laws.legs
     }
 
-    /// The curves of an arm.
+    /// The curve of an elbow.
     #[must_use]
-    pub fn arms(&self) -> &ArmCurves {
-        &self.arms
+    pub fn elbow(&self) -> &CyclicCurve {
+        &self.elbow
     }
 
     /// Walking speed at the start [m/s].
@@ -391,8 +391,8 @@ impl Walk {
             WalkPart::Leg(side, joint) => self.leg_angle(side, joint, self.laws.legs.of(joint).at(phase, speed), clock),
             WalkPart::Pelvis => self.pelvis_tilt(clock),
             WalkPart::Trunk => self.trunk_lean(clock),
-            WalkPart::Shoulder(_) => self.arm_angle(part, ArmCurves::shoulder(phase, speed), clock),
-            WalkPart::Elbow(_) => self.arm_angle(part, self.arms.elbow().at(phase, speed), clock),
+            WalkPart::Shoulder(_) => self.arm_angle(part, arms::shoulder(phase, speed), clock),
+            WalkPart::Elbow(_) => self.arm_angle(part, self.elbow.at(phase, speed), clock),
         }
     }
 
@@ -526,34 +526,18 @@ fn between(standing: f64, walking: Jet, share: Jet) -> Jet {
     if share == Jet::constant(1.0) { walking } else { (walking - standing) * share + standing }
 }
 
-/// The paces of a gait on a leg.
-struct PaceOf<'a> {
-    gait: &'a Gait,
-    leg_length: f64,
+/// A pace of a gait in walking: the law of steps on this leg [m], and the speed at which it is evaluated.
+fn at_pace(gait: &Gait, pace: &Pace, leg_length: f64) -> Result<(StrideLaw, f64), GaitError> {
+    resolve(&Gait { pace: *pace, ..gait.clone() }, leg_length)
 }
 
-/// A pace in walking: a law of steps, and the speed at which it is evaluated.
-struct Resolved {
-    law: StrideLaw,
-    law_speed: f64,
-}
-
-impl PaceOf<'_> {
-    fn walking(&self, pace: &Pace) -> Result<Resolved, GaitError> {
-        let gait = Gait { pace: *pace, ..self.gait.clone() };
-        let (law, law_speed) = resolve(&gait, self.leg_length)?;
-        Ok(Resolved { law, law_speed })
-    }
-}
-
-impl Resolved {
-    fn relative_to(&self, law: &StrideLaw) -> SteadyPace {
-        SteadyPace {
-            law_speed: self.law_speed,
-            length: self.law.length_scale / law.length_scale,
-            cadence: self.law.cadence_scale / law.cadence_scale,
-            walks: true,
-        }
+/// The pace of a law at a speed, relative to the first law of a walk.
+fn relative_pace((law, law_speed): (StrideLaw, f64), first: &StrideLaw) -> SteadyPace {
+    SteadyPace {
+        law_speed,
+        length: law.length_scale / first.length_scale,
+        cadence: law.cadence_scale / first.cadence_scale,
+        walks: true,
     }
 }
 

@@ -94,6 +94,47 @@ pub enum OptimalWalkError {
         /// The largest moment above strength.
         overload: Overload,
     },
+    /// A movement without its forces.
+    #[error("no {movement} was found for a walk at {speed:.2} m/s: {unbalanced}")]
+    NoMovement {
+        /// `stop` or `start`.
+        movement: &'static str,
+        /// Speed of the walk [m/s].
+        speed: f64,
+        /// The largest force that nothing supplies.
+        unbalanced: Unbalanced,
+    },
+    /// A movement that does not reach the walk.
+    #[error(
+        "no {movement} was found for a walk at {speed:.2} m/s: it would have another posture or another speed where it \
+         joins the walk"
+    )]
+    Misses {
+        /// `stop` or `start`.
+        movement: &'static str,
+        /// Speed of the walk [m/s].
+        speed: f64,
+    },
+    /// A movement that leaves the ground.
+    #[error("no {movement} was found for a walk at {speed:.2} m/s: the figure would hop")]
+    Hops {
+        /// `stop` or `start`.
+        movement: &'static str,
+        /// Speed of the walk [m/s].
+        speed: f64,
+    },
+    /// Machines that do something else in every cycle.
+    #[error(
+        "the gait `{gait}`: found machines that move joints otherwise from cycle to cycle; expected the same in every \
+         cycle, because one cycle is solved and repeated. hint: use the mode `paper`, in scenes `curves`"
+    )]
+    Machines {
+        /// Name of the gait.
+        gait: String,
+    },
+    /// A change of pace without a motion before or after it.
+    #[error("found a change of pace without a motion before or after it; expected one on both sides")]
+    Order,
 }
 
 /// A muscle moment above the strength of its joint.

@@ -123,13 +123,6 @@ struct Touch {
     found: ContactSlopes,
 }
 
-/// Derivatives of the wrench of the ground on a foot by the coordinate of a link.
-#[derive(Debug, Clone, Copy)]
-struct WrenchSlopes {
-    by_position: One,
-    by_rate: One,
-}
-
 const NO_WRENCH: One = One { angular: Vec3::new(0.0, 0.0, 0.0), linear: Vec3::new(0.0, 0.0, 0.0) };
 
 impl Evaluator {
@@ -270,8 +263,8 @@ impl Evaluator {
                 let row = &mut instant.slopes[row * width..(row + 1) * width];
                 for (i, ((column, carrier), slope)) in links.iter().zip(&slopes).enumerate() {
                     let turned = if i > j { carrier.cross(*axis).dot(wrench) } else { 0.0 };
-                    row[*column] -= axis.dot(slope.by_position) + turned;
-                    row[self.kernel.coordinates() + column] -= axis.dot(slope.by_rate);
+                    row[*column] -= axis.dot(slope[0]) + turned;
+                    row[self.kernel.coordinates() + column] -= axis.dot(slope[1]);
                 }
             }
         }
@@ -295,9 +288,9 @@ impl Evaluator {
         Touch { center, place, motion, found }
     }
 
-    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with derivatives per link of
-    /// the chain.
-    fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<WrenchSlopes>) {
+    /// Computes the contact of one sphere. Returns its wrench at the origin of the world, with its derivatives by
+    /// position and rate of each link of the chain.
+    fn touch(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> (One, Vec<[One; 2]>) {
         let touch = self.meet(law, lane, sphere, contact);
         let Touch { center, place, motion, found } = touch;
         let force = found.force;
@@ -329,7 +322,7 @@ impl Evaluator {
                 wrench[part] = One { angular: arm + place.cross(&f), linear: f };
             }
             contact.slopes.push((self.kernel.links[link].coordinate, slopes));
-            wrenches.push(WrenchSlopes { by_position: wrench[0], by_rate: wrench[1] });
+            wrenches.push(wrench);
         }
         (touch.wrench(), wrenches)
     }

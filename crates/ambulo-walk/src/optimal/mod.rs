@@ -59,7 +59,7 @@ pub use predict::{Prediction, metabolic_power};
 pub use problem::Problem;
 pub use solution::{Progress, Sample, SoleContact, Solution, Unbalanced};
 pub use solve::{Continuation, NO_ROOT_FORCE};
-pub use standing::{StandingError, StandingMovements};
+pub use standing::StandingMovements;
 pub use strength::{ECCENTRIC, Hill, StrengthCurve};
 pub use track::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
 pub use walk::{FINE_STAGES, SPATIAL_STAGES, STAGES, WalkCosts, WalkProblem, soles_with_width};

@@ -8,13 +8,14 @@
 //! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the
 //! extrapolated mass centre x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
 
+use super::error::OptimalWalkError;
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::movement::{End, Key, MovementProblem, posture};
 use super::muscles::EffortCosts;
 use super::objective::{Bound, Quantity};
 use super::problem::Problem;
-use super::solution::{Solution, Unbalanced};
+use super::solution::Solution;
 use super::solve::NO_ROOT_FORCE;
 use crate::dynamics::CurvedJointError;
 use crate::model::anthropometry::Human;
@@ -66,44 +67,6 @@ pub struct StandingMovements {
     pub start: Solution,
 }
 
-/// Why a figure cannot stop or walk off.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StandingError {
-    /// Joints that are not hinges or slides.
-    #[error(transparent)]
-    Joint(#[from] CurvedJointError),
-    /// A movement without its forces.
-    #[error("no {movement} was found for a walk at {speed:.2} m/s: {unbalanced}")]
-    NotSolved {
-        /// `stop` or `start`.
-        movement: &'static str,
-        /// Speed of the walk [m/s].
-        speed: f64,
-        /// The largest force that nothing supplies.
-        unbalanced: Unbalanced,
-    },
-    /// A movement that does not reach the walk.
-    #[error(
-        "no {movement} was found for a walk at {speed:.2} m/s: it would have another posture or another speed where it \
-         joins the walk"
-    )]
-    Misses {
-        /// `stop` or `start`.
-        movement: &'static str,
-        /// Speed of the walk [m/s].
-        speed: f64,
-    },
-    /// A movement that leaves the ground.
-    #[error("no {movement} was found for a walk at {speed:.2} m/s: the figure would hop")]
-    Hops {
-        /// `stop` or `start`.
-        movement: &'static str,
-        /// Speed of the walk [m/s].
-        speed: f64,
-    },
-}
-
 impl StandingMovements {
     /// Shares of the cycle of the walk at which the stop begins and at which the start ends.
     pub const JOINS: [f64; 2] = [STOP.joins, START.joins];
@@ -119,13 +82,15 @@ impl StandingMovements {
     ///
     /// # Errors
     /// Joints that are not hinges or slides; no movement was found, because the walk is too fast.
-    pub fn find(human: &Human, walk: &Solution) -> Result<StandingMovements, StandingError> {
+    pub fn find(human: &Human, walk: &Solution) -> Result<StandingMovements, OptimalWalkError> {
         let checked = |movement: &'static str, solution: Solution| {
             let speed = walk.speed();
             match solution.unbalanced(NO_ROOT_FORCE) {
-                Some(unbalanced) => Err(StandingError::NotSolved { movement, speed, unbalanced }),
-                None if hops(&solution) => Err(StandingError::Hops { movement, speed }),
-                None if misses(&solution, walk, movement == "start") => Err(StandingError::Misses { movement, speed }),
+                Some(unbalanced) => Err(OptimalWalkError::NoMovement { movement, speed, unbalanced }),
+                None if hops(&solution) => Err(OptimalWalkError::Hops { movement, speed }),
+                None if misses(&solution, walk, movement == "start") => {
+                    Err(OptimalWalkError::Misses { movement, speed })
+                }
                 None => Ok(solution),
             }
         };

@@ -133,16 +133,16 @@ fn of_shapes(table: &Table<'_>, shapes: &[ShapeEntry]) -> Result<Mat3, SceneErro
             .missing("inertia", meaning)
             .hint("`inertia` is optional for a body with shapes, which is then taken as uniform"));
     }
-    let Some(uniform) = uniform(shapes) else {
+    let Some((center, about_center)) = uniform(shapes) else {
         return Err(table.missing("inertia", meaning).hint("the inertia of a convex shape is not computed"));
     };
-    let gyration = (uniform.about_center.trace() / 2.0).sqrt();
-    if uniform.center.norm() > CENTER_SLACK * gyration {
-        let [x, y, z] = uniform.center.into();
+    let gyration = (about_center.trace() / 2.0).sqrt();
+    if center.norm() > CENTER_SLACK * gyration {
+        let [x, y, z] = center.into();
         let found = format!("found shapes whose common centre is [{x:.6}, {y:.6}, {z:.6}]");
         return Err(table
             .wrong(format!("{found}; expected it at the body's origin, its mass centre"))
             .hint("move the shapes, or give `inertia` if the body is not uniform"));
     }
-    Ok(uniform.about_center)
+    Ok(about_center)
 }

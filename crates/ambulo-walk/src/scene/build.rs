@@ -13,6 +13,7 @@ use super::names::{Attachment, ContactPartner};
 use super::output::Outputs;
 use super::placement::{order, place};
 use super::recorder::Recorder;
+use super::solver::IntegratorReason;
 use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
@@ -37,6 +38,7 @@ pub struct Scene {
     pub(super) world: World,
     pub(super) state: WorldState,
     pub(super) settings: StepSettings,
+    pub(super) integrator_reason: IntegratorReason,
     pub(super) duration_s: f64,
     pub(super) output_rate_hz: f64,
     pub(super) outputs: Outputs,
@@ -59,6 +61,12 @@ pub struct Scene {
     pub(super) watch: Option<EnergyWatch>,
     /// Poses at the beginning of the last step, to which its forces belong; only if there are figures.
     pub(super) before: Vec<Pose>,
+    /// Whether the velocities at the start are those of half a step earlier.
+    pub(super) starts_early: bool,
+    /// Number of steps that were made before this run.
+    pub(super) resumed: usize,
+    /// Scratch memory of the forces at an instant.
+    pub(super) probe: StepWorkspace,
 }
 
 /// Settings that replace those of the file.
@@ -125,10 +133,11 @@ impl Scene {
         let settings = settings(file, changes);
         let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
         start(&world, &mut state, &settings.solver, findings).map_err(trees)?;
-        start_half_a_step_earlier(&mut state, &walkers, &settings);
+        let starts_early = start_half_a_step_earlier(&mut state, &walkers, &settings);
         let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
         Ok(Scene {
             settings,
+            integrator_reason: file.integrator_reason,
             watch,
             duration_s,
             output_rate_hz: file.output_rate_hz.min(1.0 / changes.step_s.unwrap_or(file.step_s)),
@@ -144,6 +153,9 @@ impl Scene {
             recorders,
             workspace: StepWorkspace::default(),
             before: Vec::new(),
+            resumed: 0,
+            starts_early,
+            probe: StepWorkspace::default(),
             world,
             state,
         })
@@ -160,16 +172,17 @@ pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings
 }
 
 /// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities
-/// are those of the middle of a step (`Walker::moving_as`).
-fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) {
+/// are those of the middle of a step (`Walker::moving_as`). Returns whether there are any.
+fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) -> bool {
     if settings.integrator != Integrator::Impulse {
-        return;
+        return false;
     }
     for figure in figures {
         for (twist, acceleration) in state.twists[figure.first_body..].iter_mut().zip(&figure.accelerations) {
             *twist = half_a_step_earlier(*twist, *acceleration, settings.step_s);
         }
     }
+    figures.iter().any(|figure| !figure.accelerations.is_empty())
 }
 
 /// Adds bodies, obstacles and figures, with their surfaces and the joints of the figures.

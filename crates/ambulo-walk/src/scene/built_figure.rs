@@ -16,7 +16,8 @@ use super::{Place, SceneError};
 use crate::consistent_walk::{ConsistentWalkSettings, make_changing_walk};
 use crate::contact::HuntCrossley;
 use crate::control::{FigureRecorder, Live, LiveTargets, ScheduledController};
-use crate::engine::figure_tree::{FigureJointError, FigureTree};
+use crate::engine::WorldError;
+use crate::engine::figure_tree::FigureTree;
 use crate::engine::signal::Signal;
 use crate::engine::soles::{add_soles, lowest};
 use crate::engine::world::{ContactLaw, Figure, JointCoordinate, JointDrive, Material, Motor, Spring, World};
@@ -75,7 +76,7 @@ pub(super) fn add(
     let model = &human.model;
     own_starts(built, model, &mut motion);
     let figure = world.figures.len();
-    let wrong_joint = |e: FigureJointError| built.place.error(e.to_string());
+    let wrong_joint = |e: WorldError| built.place.error(e.to_string());
     let tree = FigureTree::add(world, model, &format!("{}/", entry.name)).map_err(wrong_joint)?;
     let first_body = tree.first_body;
     let rest = vec![0.0; model.coordinates().len()];

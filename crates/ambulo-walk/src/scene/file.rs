@@ -9,8 +9,8 @@ use super::joint::JointEntry;
 use super::material::{self, MaterialEntry};
 use super::names::{ContactPartner, Item, Names};
 use super::obstacle::ObstacleEntry;
-use super::output::{self, AllNames, Outputs};
-use super::solver::{read_impact, read_integrator, read_solver};
+use super::output::{self, Outputs};
+use super::solver::{IntegratorReason, STICKING, read_impact, read_integrator, read_solver};
 use super::tree;
 use crate::dynamics::SolverSettings;
 use crate::engine::{ImpactLaw, Integrator};
@@ -30,6 +30,8 @@ pub struct SceneFile {
     pub duration_s: f64,
     /// The integrator.
     pub integrator: Integrator,
+    /// Why it is this one.
+    pub integrator_reason: IntegratorReason,
     /// The impact law.
     pub impact: ImpactLaw,
     /// Whether positions are projected back onto the constraints after each step.
@@ -117,22 +119,37 @@ impl SceneFile {
         if bodies.is_empty() && figures.is_empty() {
             return Err(root.missing("body", "at least one [[body]] or [[figure]]"));
         }
-        let integrator = read_integrator(&root)?;
         let joints = joints(&root, &mut links, &things, &bodies, duration_s)?;
         let closures = closures(&root, &mut links, &things, &bodies)?;
+        let of_scene = || {
+            let carriers = bodies.iter().filter(|body| !body.shapes.is_empty()).count();
+            let is_driven = |joint: &JointEntry| joint.coordinates.iter().any(|c| c.drive.is_some());
+            let sticks = root.get("impact").is_some_and(|value| value.text().is_ok_and(|word| word == STICKING));
+            match (
+                figures.is_empty() && !joints.iter().any(is_driven),
+                sticks || carriers > 0,
+                sticks || carriers + obstacles.len() > 1,
+            ) {
+                (false, ..) => IntegratorReason::Driven,
+                (true, true, true) => IntegratorReason::MayTouch,
+                _ => IntegratorReason::FreeMotion,
+            }
+        };
+        let (integrator, integrator_reason) = read_integrator(&root, of_scene)?;
         Ok(SceneFile {
             title: root.get("title").map_or(Ok(""), |value| value.text())?.to_owned(),
             gravity: root.get("gravity").map_or(Ok(GRAVITY), |value| value.vector())?,
             step_s,
             duration_s,
             integrator,
+            integrator_reason,
             impact: read_impact(&root, integrator)?,
             projection: root.truth_or("projection", true)?,
             output_rate_hz: output_rate(&root, step_s)?,
             solver: read_solver(&root)?,
             events: event::read_all(&root, &links, (&joints, &closures), duration_s)?,
             ignored: ignored(&root, &things)?,
-            outputs: output::read(&root, &AllNames { things: &things, links: &links })?,
+            outputs: output::read(&root, &things, &links)?,
             materials,
             bodies,
             obstacles,

@@ -80,8 +80,9 @@ pub use obstacle::{ObstacleEntry, ObstacleMotion, ObstacleShape};
 pub use output::{Outputs, Plot};
 pub use recorder::FigureRecord;
 pub use run::{RunError, RunStatistics, SceneFrame};
-pub use saved::{ResumeError, SavedState};
+pub use saved::SavedState;
 #[doc(hidden)]
 pub use shape::{ShapeEntry, Solid};
+pub use solver::IntegratorReason;
 #[doc(hidden)]
 pub use sources::ReadFile;

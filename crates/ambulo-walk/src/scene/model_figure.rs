@@ -131,11 +131,11 @@ fn signals(entry: &FigureEntry, model: &Model, sources: &mut InputFiles<'_, '_>)
     if let Some(file) = &entry.motion {
         let place = &entry.motion_place;
         let table = sources.table(place, file)?;
-        let curves = table
+        let (curves, span_s) = table
             .coordinates(model, free, sources.findings)
             .map_err(|e| place.error(format!("{file}: {}", super::error_chain::chain(&e))))?;
-        start = sources.start(place, file, curves.span_s, entry.from_s)?;
-        columns = curves.columns;
+        start = sources.start(place, file, span_s, entry.from_s)?;
+        columns = curves;
         report_missing(model, &columns, file, sources);
     }
     let own = |(coordinate, column): (&crate::model::Coordinate, Option<_>)| match (&coordinate.drive, column) {

@@ -66,8 +66,8 @@ pub(super) struct MotionRecorder {
     follows: Vec<bool>,
     first_body: usize,
     start_s: f64,
-    /// Joints with coordinates that follow no signal.
-    passive: Vec<PassiveJoint>,
+    /// Joints with coordinates that follow no signal, which are found from the poses of the bodies.
+    passive: Vec<(BodyId, Vec<CoordinateId>)>,
     /// Coordinates and rates at the end of the last recorded step, which is the start of the next: events between steps
     /// move no body.
     now: [Vec<f64>; 2],
@@ -79,22 +79,16 @@ pub(super) struct MotionRecorder {
     heights: Vec<Vec<f64>>,
 }
 
-/// A joint whose coordinates are found from the poses of its bodies.
-#[derive(Debug, Clone)]
-struct PassiveJoint {
-    body: BodyId,
-    coordinates: Vec<CoordinateId>,
-}
-
-/// The joints of a model with free coordinates that follow no signal.
-fn passive_joints(model: &Model, follows: &[bool]) -> Vec<PassiveJoint> {
+/// The joints of a model, by their body, with free coordinates that follow no signal.
+fn passive_joints(model: &Model, follows: &[bool]) -> Vec<(BodyId, Vec<CoordinateId>)> {
     let is_free =
         |id: &CoordinateId| !follows[id.index()] && matches!(model.coordinates()[id.index()].drive, Drive::Free);
     let of = |body: BodyId| {
-        let coordinates = model.bodies()[body.index()].joint.coordinates().into_iter().filter(is_free).collect();
-        PassiveJoint { body, coordinates }
+        let coordinates: Vec<CoordinateId> =
+            model.bodies()[body.index()].joint.coordinates().into_iter().filter(is_free).collect();
+        (body, coordinates)
     };
-    model.body_ids().map(of).filter(|joint| !joint.coordinates.is_empty()).collect()
+    model.body_ids().map(of).filter(|(_, coordinates)| !coordinates.is_empty()).collect()
 }
 
 impl MotionRecorder {
@@ -134,19 +128,19 @@ impl MotionRecorder {
         for (id, signal) in self.signals.iter().enumerate().filter(|(id, _)| self.follows[*id]) {
             [q[id], rates[id], _] = signal.at(state.time_s);
         }
-        for passive in &self.passive {
-            let joint = &self.model.bodies()[passive.body.index()].joint;
-            let wanted = self.parent_from_child(passive.body, state);
+        for (body, coordinates) in &self.passive {
+            let joint = &self.model.bodies()[body.index()].joint;
+            let wanted = self.parent_from_child(*body, state);
             for _ in 0..NEWTON_STEPS {
-                let change = least_squares(joint, &q, &passive.coordinates, missing(joint, &q, &wanted));
-                passive.coordinates.iter().zip(&change).for_each(|(id, d)| q[id.index()] += d);
+                let change = least_squares(joint, &q, coordinates, missing(joint, &q, &wanted));
+                coordinates.iter().zip(&change).for_each(|(id, d)| q[id.index()] += d);
                 if change.iter().all(|d| d.abs() < SETTLED) {
                     break;
                 }
             }
-            let velocity = self.relative_velocity(passive.body, state);
-            let found = least_squares(joint, &q, &passive.coordinates, velocity);
-            passive.coordinates.iter().zip(&found).for_each(|(id, rate)| rates[id.index()] = *rate);
+            let velocity = self.relative_velocity(*body, state);
+            let found = least_squares(joint, &q, coordinates, velocity);
+            coordinates.iter().zip(&found).for_each(|(id, rate)| rates[id.index()] = *rate);
         }
         [q, rates]
     }

@@ -36,13 +36,8 @@ pub enum Plot {
     Closure(usize),
 }
 
-/// Both sets of names: bodies, obstacles and figures; joints and closures.
-pub(super) struct AllNames<'n> {
-    pub(super) things: &'n Names,
-    pub(super) links: &'n Names,
-}
-
-pub(super) fn read(root: &Table<'_>, names: &AllNames<'_>) -> Result<Outputs, SceneError> {
+/// Reads the outputs. `things` are bodies, obstacles and figures, `links` are joints and closures.
+pub(super) fn read(root: &Table<'_>, things: &Names, links: &Names) -> Result<Outputs, SceneError> {
     let Some(value) = root.get("output") else {
         return Ok(Outputs { poses: true, joints: true, contacts: true, energy: true, plots: Vec::new() });
     };
@@ -50,7 +45,9 @@ pub(super) fn read(root: &Table<'_>, names: &AllNames<'_>) -> Result<Outputs, Sc
     table.only(&[&["poses", "joints", "contacts", "energy", "plot"]])?;
     let plots = match table.get("plot") {
         None => Vec::new(),
-        Some(value) => value.list(EXPECTED)?.iter().map(|entry| plot(entry, names)).collect::<Result<_, _>>()?,
+        Some(value) => {
+            value.list(EXPECTED)?.iter().map(|entry| plot(entry, things, links)).collect::<Result<_, _>>()?
+        }
     };
     Ok(Outputs {
         poses: table.truth_or("poses", true)?,
@@ -64,19 +61,19 @@ pub(super) fn read(root: &Table<'_>, names: &AllNames<'_>) -> Result<Outputs, Sc
 const EXPECTED: &str =
     "a list of \"energy\", \"solver\", \"contacts\", \"body:NAME\", \"joint:NAME\", \"closure:NAME\"";
 
-fn plot(value: &Value<'_>, names: &AllNames<'_>) -> Result<Plot, SceneError> {
+fn plot(value: &Value<'_>, things: &Names, links: &Names) -> Result<Plot, SceneError> {
     let text = value.text()?;
     let (kind, name) = text.split_once(':').unwrap_or((text, ""));
-    match (kind, names.things.find(name), names.links.find(name)) {
+    match (kind, things.find(name), links.find(name)) {
         ("energy", ..) if text == kind => Ok(Plot::Energy),
         ("solver", ..) if text == kind => Ok(Plot::Solver),
         ("contacts", ..) if text == kind => Ok(Plot::Contacts),
         ("body", Some(Item::Body(body)), _) => Ok(Plot::Body(body)),
         ("joint", _, Some(Item::Joint(joint))) => Ok(Plot::Joint(joint)),
         ("closure", _, Some(Item::Closure(closure))) => Ok(Plot::Closure(closure)),
-        ("body", found, _) => Err(names.things.unfit(value, name, "the name of a body after \"body:\"", found)),
-        ("joint", _, found) => Err(names.links.unfit(value, name, "the name of a joint after \"joint:\"", found)),
-        ("closure", _, found) => Err(names.links.unfit(value, name, "the name of a closure after \"closure:\"", found)),
+        ("body", found, _) => Err(things.unfit(value, name, "the name of a body after \"body:\"", found)),
+        ("joint", _, found) => Err(links.unfit(value, name, "the name of a joint after \"joint:\"", found)),
+        ("closure", _, found) => Err(links.unfit(value, name, "the name of a closure after \"closure:\"", found)),
         _ => Err(value.wrong(EXPECTED)),
     }
 }

@@ -6,11 +6,13 @@ use super::file::MOST_STEPS;
 use super::model_figure::PlacedFigure;
 use super::output::Outputs;
 use super::recorder::{FigureRecord, Recorder};
+use super::solver::IntegratorReason;
 use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::engine::energy::{Energy, energy};
 use crate::engine::figure_tree::{FigurePlace, FigureTree};
 use crate::engine::forces::{ContactForce, StepForces};
 use crate::engine::projection::{closure_errors, closure_frames, largest_joint_error};
+use crate::engine::row::{Row, StepTaken};
 use crate::engine::state::{RowKey, WorldState};
 use crate::engine::step::step;
 use crate::engine::workspace::StepSettings;
@@ -27,7 +29,7 @@ const AFTER_FALL_S: f64 = 2.0;
 /// Largest number of rows of output, counted for each body, joint and closure: they take about 200 bytes each.
 const MOST_ROWS: f64 = 1e7;
 
-/// Why a scene could not be simulated to its end.
+/// Why a scene could not be resumed, or simulated to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -65,14 +67,30 @@ pub enum RunError {
         /// Time [s].
         time_s: f64,
     },
+    /// The saved state of another scene.
+    #[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
+    OtherScene {
+        /// Difference.
+        what: &'static str,
+        /// Saved value.
+        found: String,
+        /// Value of the scene.
+        expected: String,
+    },
+    /// Machines or controllers, whose states are not saved.
+    #[error(
+        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are \
+         not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
+    )]
+    Machines,
 }
 
-/// A scene at one output time.
+/// A scene at one output time. Positions, velocities and forces belong to that instant (docs/SIMULATION.md).
 #[derive(Debug)]
 pub struct SceneFrame<'a> {
-    /// The scene in its present state.
+    /// The scene at this instant.
     pub scene: &'a Scene,
-    /// Forces of the step that ends here; none at the start.
+    /// Forces at this instant; none if no step can begin here.
     pub forces: Option<StepForces>,
     /// Impacts within steps since the last frame: time [s], with impulses [N.s] as forces.
     pub impacts: Vec<(f64, ContactForce)>,
@@ -127,6 +145,12 @@ impl Scene {
         &self.settings
     }
 
+    /// Why the steps have their integrator.
+    #[must_use]
+    pub fn integrator_reason(&self) -> IntegratorReason {
+        self.integrator_reason
+    }
+
     /// Time at which the scene ends [s].
     #[must_use]
     pub fn duration_s(&self) -> f64 {
@@ -169,7 +193,7 @@ impl Scene {
     }
 
     /// Simulates to the end and calls back at the output rate. The first frame is the start, except for a resumed
-    /// scene, where the earlier run had this frame.
+    /// scene, where the earlier run had this frame. A frame has the world after the events of its instant.
     ///
     /// # Errors
     /// No time step or too many, more output than fits into memory, joints that do not form trees, motion that is not
@@ -182,21 +206,54 @@ impl Scene {
         self.check_length()?;
         let mut statistics = RunStatistics::default();
         let mut impacts = Vec::new();
-        if self.steps == 0 {
-            let energy = energy(&self.world, &self.state);
-            visit(&SceneFrame { scene: self, forces: None, impacts: Vec::new(), energy });
-        }
         while self.steps < self.steps_in_all() && !self.has_ended() {
-            statistics.add(&self.step(findings)?);
+            self.prepare(findings);
+            let before = self.is_seen().then(|| self.state.clone());
+            statistics.add(&self.advance(findings)?);
+            if let Some(before) = before {
+                self.show(&before, std::mem::take(&mut impacts), &mut visit)?;
+            }
             let of_step = self.workspace.impacts().iter();
             impacts.extend(of_step.flat_map(|impact| impact.contacts.iter().map(|contact| (impact.time_s, *contact))));
-            if self.is_seen() {
-                let forces = Some(self.workspace.forces(&self.world));
-                let energy = energy(&self.world, &self.state);
-                visit(&SceneFrame { scene: self, forces, impacts: std::mem::take(&mut impacts), energy });
-            }
+        }
+        if self.is_seen() {
+            self.show_end(impacts, &mut visit)?;
         }
         Ok(statistics)
+    }
+
+    /// Passes the frame of the last instant to the caller: its forces are those of a step that would begin there.
+    fn show_end(
+        &self,
+        impacts: Vec<(f64, ContactForce)>,
+        visit: &mut impl FnMut(&SceneFrame<'_>),
+    ) -> Result<(), RunError> {
+        let (mut ahead, mut unseen) = (self.clone(), Findings::default());
+        ahead.prepare(&mut unseen);
+        let before = ahead.state.clone();
+        if ahead.advance(&mut unseen).is_err() {
+            visit(&SceneFrame { scene: self, forces: None, impacts, energy: energy(&self.world, &self.state) });
+            return Ok(());
+        }
+        ahead.show(&before, impacts, visit)
+    }
+
+    /// Passes the frame of the instant before the last step to the caller.
+    fn show(
+        &mut self,
+        before: &WorldState,
+        impacts: Vec<(f64, ContactForce)>,
+        visit: &mut impl FnMut(&SceneFrame<'_>),
+    ) -> Result<(), RunError> {
+        let begins = self.steps == 1 && !self.starts_early;
+        let (settings, workspace) = (&self.settings, &self.workspace);
+        let step = StepTaken { world: &self.world, before, after: &self.state, settings, workspace, begins };
+        let Row { state, forces } = step.row(&mut self.probe)?;
+        let after = std::mem::replace(&mut self.state, state);
+        let energy = energy(&self.world, &self.state);
+        visit(&SceneFrame { scene: self, forces: Some(forces), impacts, energy });
+        self.state = after;
+        Ok(())
     }
 
     /// Whether all figures that walk by their own torques have fallen some time ago.
@@ -224,6 +281,12 @@ impl Scene {
     /// # Errors
     /// As [`Scene::run`].
     pub fn step(&mut self, findings: &mut Findings) -> Result<Convergence, RunError> {
+        self.prepare(findings);
+        self.advance(findings)
+    }
+
+    /// Applies the events that are due, and sets drives and motors of the next step.
+    fn prepare(&mut self, findings: &mut Findings) {
         self.fire_events();
         if !self.walkers.is_empty() {
             self.before.clone_from(&self.state.poses);
@@ -236,6 +299,10 @@ impl Scene {
                 recorder.fall().into_iter().for_each(|fall| findings.report(Code::FigureFell, fall));
             }
         }
+    }
+
+    /// Makes one step.
+    fn advance(&mut self, findings: &mut Findings) -> Result<Convergence, RunError> {
         let convergence = step(&self.world, &mut self.state, &self.settings, &mut self.workspace, findings)?;
         if self.steps == 0 {
             for closure in self.workspace.undetermined_closures() {
@@ -290,11 +357,14 @@ impl Scene {
         self.recorders.iter().map(|recorder| recorder.record(self.settings.step_s)).collect()
     }
 
-    /// Whether the last step has passed an instant of output.
+    /// Whether this is an instant of output that no earlier run has shown.
     fn is_seen(&self) -> bool {
         let every = self.output_rate_hz * self.settings.step_s;
         let rows = |steps: usize| (steps as f64 * every + SAME_INSTANT).floor();
-        rows(self.steps) > rows(self.steps.saturating_sub(1))
+        match self.steps {
+            0 => true,
+            steps => steps > self.resumed && rows(steps) > rows(steps - 1),
+        }
     }
 
     /// Applies the events up to now.
@@ -335,8 +405,9 @@ impl Scene {
         self.state.guess = guess.into_iter().filter_map(|(key, rows)| Some((without(key, number)?, rows))).collect();
     }
 
-    /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model. The force is zero for
-    /// joints without constraint or drive; values of figures from a model file are those of the recording.
+    /// Value, rate and generalised force [N.m or N] of every coordinate of each figure's model, from the forces of a
+    /// frame. The force is zero for joints without constraint or drive; values of figures from a model file are those
+    /// of the recording.
     #[must_use]
     pub fn generalized_forces(&self, forces: &StepForces) -> Vec<Vec<[f64; 3]>> {
         self.walkers.iter().map(|walker| self.of_walker(walker, forces)).collect()
@@ -347,12 +418,8 @@ impl Scene {
             return self.of_joints(tree, forces);
         }
         let figure = &self.world.figures[walker.figure];
-        let recorded = |time_s: f64| {
-            let values = figure.coordinates.iter().map(|signal| signal.at(time_s)).collect::<Vec<[f64; 3]>>();
-            [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>())
-        };
-        // The step's forces belong to the posture at its beginning.
-        let [q, qd, qdd] = recorded(self.state.time_s - self.settings.step_s);
+        let values: Vec<[f64; 3]> = figure.coordinates.iter().map(|signal| signal.at(self.state.time_s)).collect();
+        let [q, qd, qdd] = [0, 1, 2].map(|k| values.iter().map(|v| v[k]).collect::<Vec<f64>>());
         let posture = Posture { q: &q, qd: &qd, qdd: &qdd };
         let motions = body_motion(&figure.model, posture);
         let joint_of = self.world.joint_of_body();
@@ -360,16 +427,17 @@ impl Scene {
         let wrench = |(i, motion): (usize, &BodyMotion)| {
             let body = walker.first_body + i;
             let follows = joint_of[body].is_some_and(|j| self.world.joints[j].follows.is_some());
-            let (Some(pose), true) = (self.before.get(body), follows) else { return Wrench::ZERO };
-            let turn = motion.pose.rotation * pose.rotation.transpose();
+            if !follows {
+                return Wrench::ZERO;
+            }
+            let turn = motion.pose.rotation * self.state.poses[body].rotation.transpose();
             let Wrench { moment, force } = forces.joints[body];
             Wrench { moment: turn * moment, force: turn * force }
         };
         let wrenches: Vec<Wrench> = motions.iter().enumerate().map(wrench).collect();
         let mut workspace = Workspace::new(&figure.model);
         let tau = project_wrenches(&mut workspace, posture, &wrenches);
-        let [q, qd, _] = recorded(self.state.time_s);
-        q.iter().zip(qd).zip(tau).map(|((value, rate), tau)| [*value, rate, *tau]).collect()
+        q.iter().zip(&qd).zip(tau).map(|((value, rate), tau)| [*value, *rate, *tau]).collect()
     }
 
     fn of_joints(&self, tree: &FigureTree, forces: &StepForces) -> Vec<[f64; 3]> {

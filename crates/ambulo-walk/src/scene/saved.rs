@@ -3,6 +3,7 @@
 use super::build::Scene;
 use super::event::{EventAction, EventEntry};
 use super::recorder::Recorder;
+use super::run::RunError;
 use crate::engine::state::RowKey;
 use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use serde::{Deserialize, Serialize};
@@ -35,28 +36,6 @@ pub struct SavedState {
     impulses: Vec<(RowKey, [f64; 6])>,
 }
 
-/// Why a saved state cannot be resumed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ResumeError {
-    /// The state of another scene.
-    #[error("the saved state belongs to another scene: {what} {found}; expected {expected}")]
-    Other {
-        /// Difference.
-        what: &'static str,
-        /// Saved value.
-        found: String,
-        /// Value of the scene.
-        expected: String,
-    },
-    /// Machines or controllers, whose states are not saved.
-    #[error(
-        "a figure of the scene has a controller, or machines that read loads, angles or joints, and their states are \
-         not saved; expected figures that follow the clock alone. hint: simulate the scene from its start"
-    )]
-    Machines,
-}
-
 impl Scene {
     /// Saves everything that changes in a run.
     #[must_use]
@@ -86,9 +65,9 @@ impl Scene {
     ///
     /// # Errors
     /// A state of another scene, or with another time step.
-    pub fn resume(&mut self, saved: &SavedState) -> Result<(), ResumeError> {
+    pub fn resume(&mut self, saved: &SavedState) -> Result<(), RunError> {
         if self.recorders.iter().any(Recorder::is_live) {
-            return Err(ResumeError::Machines);
+            return Err(RunError::Machines);
         }
         let names: Vec<&str> = self.world.bodies.iter().map(|body| body.name.as_str()).collect();
         agree("the bodies", &saved.bodies.join(", "), &names.join(", "))?;
@@ -106,6 +85,7 @@ impl Scene {
         let counts = |list: &[Vec<f64>]| format!("{:?}", list.iter().map(Vec::len).collect::<Vec<_>>());
         agree("the joints' numbers of coordinates are", &counts(&saved.coordinates), &counts(&self.state.coordinates))?;
         (self.steps, self.fired) = (saved.steps, saved.events);
+        self.resumed = saved.steps;
         for (closure, (active, first, second)) in self.world.closures.iter_mut().zip(&saved.closures) {
             closure.active = *active;
             (closure.first_from_joint, closure.second_from_joint) = (pose(first), pose(second));
@@ -119,11 +99,11 @@ impl Scene {
     }
 }
 
-fn agree<T: PartialEq + ToString>(what: &'static str, found: &T, expected: &T) -> Result<(), ResumeError> {
+fn agree<T: PartialEq + ToString>(what: &'static str, found: &T, expected: &T) -> Result<(), RunError> {
     if found == expected {
         return Ok(());
     }
-    Err(ResumeError::Other { what, found: found.to_string(), expected: expected.to_string() })
+    Err(RunError::OtherScene { what, found: found.to_string(), expected: expected.to_string() })
 }
 
 fn twelve(pose: &Pose) -> [f64; 12] {

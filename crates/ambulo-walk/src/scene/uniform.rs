@@ -17,12 +17,6 @@ use super::shape::{ShapeEntry, Solid};
 use crate::spatial::{Mat3, Vec3};
 use std::f64::consts::PI;
 
-/// Mass centre [m] and inertia about it for a mass of 1 kg [m²], in the axes of the body.
-pub(super) struct Uniform {
-    pub(super) center: Vec3,
-    pub(super) about_center: Mat3,
-}
-
 /// One solid: volume [m³], centre [m], inertia about it for 1 kg [m²].
 struct Part {
     volume: f64,
@@ -30,8 +24,9 @@ struct Part {
     about_center: Mat3,
 }
 
-/// `None` if one of the shapes is convex, or there is none.
-pub(super) fn uniform(shapes: &[ShapeEntry]) -> Option<Uniform> {
+/// Mass centre [m] and inertia about it for a mass of 1 kg [m²], in the axes of the body. `None` if one of the shapes
+/// is convex, or there is none.
+pub(super) fn uniform(shapes: &[ShapeEntry]) -> Option<(Vec3, Mat3)> {
     let parts: Option<Vec<Part>> = shapes.iter().map(part).collect();
     let parts = parts.filter(|parts| !parts.is_empty())?;
     let total: f64 = parts.iter().map(|part| part.volume).sum();
@@ -42,7 +37,7 @@ pub(super) fn uniform(shapes: &[ShapeEntry]) -> Option<Uniform> {
         (part.about_center + Mat3::identity() * d.norm_squared() - d * d.transpose()) * (part.volume / total)
     };
     let about_center: Mat3 = parts.iter().map(about).sum();
-    Some(Uniform { center, about_center })
+    Some((center, about_center))
 }
 
 fn part(shape: &ShapeEntry) -> Option<Part> {

@@ -4,13 +4,13 @@ use super::optimal::{optimal, predicted};
 use super::physical::physical;
 use super::settings::{SyntheticError, SyntheticMode, SyntheticWalkSettings};
 use super::walk::{CORRECTED_SKIPPED, KeptPart, Made, StateRun, SyntheticWalk, steady, timed};
-use crate::consistent_walk::{ConsistentWalk, ConsistentWalkError, ConsistentWalkSettings, make_changing_walk};
+use crate::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_changing_walk};
 use crate::engine::{ImpactLaw, StepSettings};
 use crate::findings::{Code, Findings};
 use crate::gait::machine::StateChange;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
-use crate::optimal::{LARGEST_BETWEEN, Solution, WalkConditions};
+use crate::optimal::{LARGEST_BETWEEN, OptimalWalkError, Solution, WalkConditions};
 use crate::walking::{
     GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, WatchedTargets, gait_signals,
 };
@@ -103,7 +103,7 @@ fn refuse_unknown_coordinates(walk: &Walk, human: &Human) -> Result<(), Syntheti
 fn report_residuals<'a>(
     solutions: impl Iterator<Item = &'a Solution>,
     findings: &mut Findings,
-) -> Result<(), ConsistentWalkError> {
+) -> Result<(), OptimalWalkError> {
     for solution in solutions {
         let (left, _) = solution.root_forces(BETWEEN)?;
         if left <= LARGEST_BETWEEN {
@@ -229,13 +229,13 @@ pub fn replay(
     let signals = gait_signals(&walk, &human.model, 0.0, duration_s)?;
     let walker = Walker::new(&human, signals, &PAPER_GROUND, walk.speed())?;
     let release = Release { torques, time_s: release_s };
-    let released = walker.walk_released(release, &step, duration_s, findings)?;
+    let (recording, fell_after_s) = walker.walk_released(release, &step, duration_s, findings)?;
     let first = ((release_s - walk.cycle_s()) / step.step_s) as usize;
-    let kept = KeptPart::of_rows(settings, first, released.recording.grid().frames);
+    let kept = KeptPart::of_rows(settings, first, recording.grid().frames);
     let free_s = duration_s - release_s;
     findings.report(
         Code::WalkReplayFell,
-        match released.fell_after_s {
+        match fell_after_s {
             Some(after_s) => format!(
                 "the torques act without feedback from {:.2} s on, and nothing holds the trunk; the figure falls \
                  {after_s:.2} s later",
@@ -245,13 +245,7 @@ pub fn replay(
         },
     );
     let states = kept.states(settings, &walk);
-    steady(
-        settings,
-        &kept,
-        human,
-        walk,
-        Made { recording: &released.recording, states, correction: None, torques: Vec::new() },
-    )
+    steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None, torques: Vec::new() })
 }
 
 /// Torques hold a figure of the mass that they were computed for.

@@ -1,6 +1,5 @@
 //! Settings of a synthetic walk.
 
-use crate::consistent_walk::ConsistentWalkError;
 use crate::control::ControlError;
 use crate::findings::Findings;
 use crate::gait::machine::repeats;
@@ -197,10 +196,7 @@ pub enum SyntheticError {
     /// The gait is invalid.
     #[error(transparent)]
     Gait(#[from] GaitError),
-    /// The gait could not be made dynamically consistent.
-    #[error(transparent)]
-    Consistency(#[from] ConsistentWalkError),
-    /// No optimal walk was found.
+    /// No optimal walk was found, or the gait could not be made dynamically consistent.
     #[error(transparent)]
     Optimal(#[from] OptimalWalkError),
     /// The walk could not be simulated.

@@ -1,6 +1,6 @@
 //! Settings of a controller by the names that they have in scenes.
 
-use crate::control::ControlSettings;
+use crate::control::{ControlError, ControlSettings};
 use crate::numerics::Shown;
 use std::f64::consts::PI;
 
@@ -54,6 +54,9 @@ pub enum GainError {
         /// Its bounds, in its unit.
         bounds: [f64; 2],
     },
+    /// A walk without a controller.
+    #[error(transparent)]
+    Control(#[from] ControlError),
 }
 
 fn names() -> String {

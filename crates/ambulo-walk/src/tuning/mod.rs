@@ -24,7 +24,7 @@ mod search;
 
 pub use gain::{Gain, GainError};
 pub use outcome::TrialOutcome;
-pub use problem::{TuningProblem, TuningProblemError};
+pub use problem::TuningProblem;
 pub use push::PushSettings;
 #[doc(hidden)]
 pub use push::{Push, PushUse};

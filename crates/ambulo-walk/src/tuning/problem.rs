@@ -48,7 +48,7 @@ impl TuningProblem {
         step: StepSettings,
         start: &ControlSettings,
         gains: &[Gain],
-    ) -> Result<TuningProblem, TuningProblemError> {
+    ) -> Result<TuningProblem, GainError> {
         gains.iter().try_for_each(|gain| gain.check(start))?;
         let mut start = start.clone();
         for gain in gains {
@@ -168,16 +168,4 @@ impl TuningProblem {
         }
         Ok(())
     }
-}
-
-/// Why gains of a figure cannot be tuned.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TuningProblemError {
-    /// A gain outside its bounds.
-    #[error(transparent)]
-    Gain(#[from] GainError),
-    /// A walk without a controller.
-    #[error(transparent)]
-    Control(#[from] ControlError),
 }

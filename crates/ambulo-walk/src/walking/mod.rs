@@ -26,7 +26,6 @@ pub(super) use figure::{half_a_step_earlier, sole_material};
 pub(crate) use recording::ExcerptRows;
 pub(super) use recording::loads;
 pub use recording::{FootImpact, WalkRecording};
-pub use run::Released;
 #[doc(hidden)]
 pub use run::{Release, WatchedTargets};
 #[doc(hidden)]

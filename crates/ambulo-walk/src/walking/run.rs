@@ -33,15 +33,6 @@ pub struct WatchedTargets<'a> {
     pub watch: &'a mut dyn FnMut(&GaitTargets),
 }
 
-/// A walk whose drives have let go.
-#[derive(Debug, Clone)]
-pub struct Released {
-    /// The walk, driven and then free.
-    pub recording: WalkRecording,
-    /// Time from the release to the fall [s]; `None` if the figure has not fallen at the end.
-    pub fell_after_s: Option<f64>,
-}
-
 /// A figure whose pelvis is lower than this share of its height at the release has fallen.
 const FALLEN: f64 = 0.75;
 /// So has one whose trunk is turned by more than this [rad].
@@ -118,7 +109,8 @@ impl Walker {
     }
 
     /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for
-    /// `duration_s`.
+    /// `duration_s`. Gives the walk, driven and then free, and the time from the release to the fall [s]; `None` if the
+    /// figure has not fallen at the end.
     ///
     /// # Errors
     /// As [`Walker::walk`], and torques of a coordinate that no drive moves.
@@ -128,7 +120,7 @@ impl Walker {
         settings: &StepSettings,
         duration_s: f64,
         findings: &mut Findings,
-    ) -> Result<Released, WalkingError> {
+    ) -> Result<(WalkRecording, Option<f64>), WalkingError> {
         let settings = StepSettings { integrator: Integrator::Impulse, ..*settings };
         let step_s = settings.step_s;
         let rows = rows_of(duration_s, step_s)?;
@@ -159,7 +151,7 @@ impl Walker {
             row += 1;
         }
         let recording = recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: row })?;
-        Ok(Released { recording, fell_after_s })
+        Ok((recording, fell_after_s))
     }
 
     /// The coordinates that are free after the release: those with torques, and the rotation of the root.

@@ -129,6 +129,7 @@ impl GaitTargets {
     }
 
     /// The states of all machines since the first step.
+    #[doc(hidden)]
     #[must_use]
     pub fn trace(&self) -> &StateTrace {
         &self.trace

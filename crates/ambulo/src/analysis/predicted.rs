@@ -178,7 +178,7 @@ fn with_prediction(
         cycles: cycles(&events, grid),
         events,
         mass: Mass { kg: model.mass(), source: MassSource::Model },
-        speed_m_s: over_ground(model, &trajectory, &ground, model.up()).map(|over| over.speed),
+        speed_m_s: over_ground(model, &trajectory, &ground, model.up()).map(|(_, speed)| speed),
         residual: residual(model, &forces),
         trajectory,
         adjusted: false,

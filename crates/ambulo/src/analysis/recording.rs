@@ -278,7 +278,7 @@ pub(super) fn with_forces(
         ForceSource::Measured { .. } => mass(model, &vertical, &cycles_for_mass(&cycles, &events, findings), findings),
         ForceSource::Simulated => Mass { kg: model.mass(), source: MassSource::Model },
     };
-    let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|over| over.speed);
+    let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|(_, speed)| speed);
     let (first, frames) = grid.inside(within.unwrap_or_default());
     let residual = residual_within(model, &forces, first..first + frames);
     Ok(Analysis { trajectory, adjusted: false, ground, forces, events, cycles, mass, speed_m_s, residual })

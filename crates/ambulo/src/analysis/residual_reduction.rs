@@ -10,13 +10,17 @@ use crate::findings::Findings;
 use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, TimeGrid, Window};
+use serde::Deserialize;
 
 /// The parts of a study that residual reduction may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Adjustable {
     /// The motion only.
     Motion,
     /// The motion, the body mass and the mass centre of the trunk.
+    #[serde(rename = "body")]
     MotionAndBody,
 }
 

@@ -9,7 +9,7 @@ use crate::kinematics::marker_fit::FitError;
 use crate::kinematics::pose_fit::{PosedBody, body_of_poses};
 use crate::kinematics::retarget::JointCentreError;
 use crate::kinematics::scaling::{
-    ProtocolTrials, ScalingError, ScalingProtocol, SizeSettings, SizedModel, fit_size, scale_by_protocol,
+    ProtocolTrials, ScalingError, ScalingProtocol, SizedModel, fit_size, scale_by_protocol,
 };
 use crate::model::Model;
 use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
@@ -152,7 +152,7 @@ impl Subject {
     ) -> Result<Subject, MarkerTrialError> {
         match standing {
             Some(standing) => {
-                let sized = fit_size(model, standing, SizeSettings { mass }, findings)?;
+                let sized = fit_size(model, standing, mass, findings)?;
                 findings.report(Code::ScalingFitted, scaling_message(&sized));
                 Ok(Subject::of_sized(sized))
             }
@@ -235,7 +235,7 @@ impl Subject {
         let (recording, trial) = standing.map_or((moving, Trial::Moving), |standing| (standing, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
         let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).map_err(RecognitionError::from)?,
+            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names)?,
             None => MarkerSet::recognise(names)?,
         };
         let calibrated = calibrate(recording, trial, &recognised, person, findings)?;

@@ -317,9 +317,10 @@ impl Floor {
     pub(super) fn of(model: &Model, analysis: &Analysis) -> Floor {
         let up = model.up();
         let still = Floor { up, velocity: Vec3::zeros() };
-        let Some(over) = over_ground(model, &analysis.trajectory, &analysis.ground, up) else { return still };
-        let velocity = still.level(over.ground);
-        if velocity.norm() > MOVING_FLOOR * over.speed { Floor { up, velocity } } else { still }
+        let over = over_ground(model, &analysis.trajectory, &analysis.ground, up);
+        let Some((ground, speed)) = over else { return still };
+        let velocity = still.level(ground);
+        if velocity.norm() > MOVING_FLOOR * speed { Floor { up, velocity } } else { still }
     }
 
     fn is_still(&self) -> bool {

@@ -7,7 +7,7 @@ mod measured;
 pub mod phases;
 pub mod plates;
 pub mod predict;
-pub mod refit;
+pub(crate) mod refit;
 pub mod stream;
 
 pub(crate) use load_sides::{FootPaths, LoadedSpan};

@@ -35,6 +35,7 @@ mod coordinates;
 mod error;
 mod files;
 mod ground_table;
+pub mod json;
 mod kind;
 mod laboratory;
 mod markers;
@@ -70,29 +71,37 @@ use crate::findings::Findings;
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
+use serde::Deserialize;
 use setup::Setups;
 use std::path::{Path, PathBuf};
 
 /// A request for the forces of a recording. Files are named; [`Job::read`] reads them.
 ///
 /// Fields that are left open are filled by the set-ups, if there are any, and then have the defaults of their
-/// documentation.
-#[derive(Debug, Clone, PartialEq)]
+/// documentation. In JSON, every field may be left out.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Job {
     /// The recording: markers, poses of segments, coordinates, orientations of sensors, a skeleton, a motion of the
     /// SMPL family or a subject of AddBiomechanics. Only a set-up makes it unnecessary.
     pub recording: Option<PathBuf>,
     /// The trial of a `.b3d`: its name, or its number counted from 1. Needed if there are several.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<json::TextOrNumber>"))]
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
     /// The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<PathBuf>"))]
     pub model: Option<ModelChoice>,
     /// Markers for the model in a file of their own.
     pub marker_set: Option<PathBuf>,
     /// The set of the recorded markers: a name, or a `.toml`. By default it is recognised.
     pub markers: Option<String>,
     /// Segment masses of the built-in body.
+    #[serde(deserialize_with = "json::text")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub segments: SegmentTable,
     /// Body mass and stature.
     pub size: StatedSize,
@@ -103,12 +112,16 @@ pub struct Job {
     /// Files of measured ground forces.
     pub forces: ForceFiles,
     /// Force plates of which the laboratory knows the foot.
+    #[serde(deserialize_with = "json::each")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub plates: Vec<PlateFoot>,
     /// Calibration of this person, by which predicted ground forces are corrected.
     pub person: Option<PathBuf>,
     /// Joint moments of a worn device.
     pub device: Option<PathBuf>,
     /// Masses that the person carried.
+    #[serde(deserialize_with = "json::each")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub added_mass: Vec<AddedMass>,
     /// Limits of a person, for the verdict.
     pub thresholds: Option<PathBuf>,
@@ -119,25 +132,37 @@ pub struct Job {
 }
 
 /// How orientations of sensors are read.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SensorStatements {
     /// The axis of a sensor that points forward in the standing posture. By default the bending of the knees shows the
     /// direction.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub heading: Option<HeadingAxis>,
     /// From the earth of the sensors to the axes of the model. By default z is up.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub earth: Option<EarthTurn>,
 }
 
 /// Files of measured ground forces. By default the forces are those in the recording.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ForceFiles {
     /// The table; by default the one that the external loads name.
     pub table: Option<PathBuf>,
     /// External loads of OpenSim: which columns act on which body.
     pub loads: Option<PathBuf>,
     /// Body and columns of the right foot.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub right: Option<FootColumns>,
     /// Body and columns of the left foot.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub left: Option<FootColumns>,
 }
 

@@ -1,9 +1,9 @@
 //! How the recording of a job is processed.
 
-use super::Job;
 use super::error::{At, JobError};
 use super::files::{Files, read as read_file};
 use super::values::{Cutoff, Filter, ForceCutoff, MarkerFitting};
+use super::{Job, json};
 use crate::analysis::Adjustable;
 use crate::analysis::feasibility::Thresholds;
 use crate::ground::predict::PersonalErrors;
@@ -11,11 +11,14 @@ use crate::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, Sm
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
 use crate::study::{ForceFilter, GroundSettings, Settings, TrackedTasks};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// How a recording is processed: the choices of a caller. Files and set-ups complete them to [`Settings`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Processing {
     /// How the ground forces are found. A calibration of the person asks for predicted ones.
     pub ground: GroundSettings,
@@ -28,8 +31,12 @@ pub struct Processing {
     /// How the motion is smoothed.
     pub filter: Filter,
     /// Low-pass of the motion; `None` takes that of a set-up, or [`Settings::LOW_PASS`].
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<json::TextOrNumber>"))]
     pub cutoff: Option<Cutoff>,
     /// Low-pass of the measured forces; `None` chooses it by the movement and the way in which ground forces are found.
+    #[serde(deserialize_with = "json::optional")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<json::TextOrNumber>"))]
     pub force_cutoff: Option<ForceCutoff>,
     /// Order of one pass of the Butterworth filters.
     pub order: usize,

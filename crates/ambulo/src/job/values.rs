@@ -3,12 +3,14 @@
 use crate::model::Side;
 use crate::spatial::Vec3;
 use crate::study::AddedMass;
+use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// The body of a recording.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(from = "PathBuf")]
 pub enum ModelChoice {
     /// The built-in body.
     BuiltIn,
@@ -37,7 +39,9 @@ impl From<PathBuf> for ModelChoice {
 }
 
 /// A filter family.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Filter {
     /// Zero-phase low-pass.
     #[default]
@@ -52,7 +56,9 @@ impl Filter {
 }
 
 /// How coordinates are fitted to markers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum MarkerFitting {
     /// Each frame separately.
     Frames,

@@ -3,7 +3,7 @@
 use crate::analysis::{AnalysisError, MarkerTrialError, Stopped};
 use crate::dynamics::residual_reduction::ResidualReductionError;
 use crate::kinematics::calibration::CalibrationError;
-use crate::kinematics::retarget::RetargetError;
+use crate::kinematics::retarget::JointCentreError;
 use crate::kinematics::sensor_fit::SensorError;
 use crate::model::anthropometry::BuildError;
 use crate::model::{ModelError, ScaleError};
@@ -19,7 +19,7 @@ pub enum StudyError {
     Markers(MarkerTrialError),
     /// A skeleton that gives no body in motion.
     #[error(transparent)]
-    Skeleton(#[from] RetargetError),
+    Skeleton(#[from] JointCentreError),
     /// Orientations of sensors that give no motion.
     #[error(transparent)]
     Sensors(#[from] SensorError),

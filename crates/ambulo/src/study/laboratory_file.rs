@@ -4,9 +4,9 @@ use crate::analysis::LaboratoryRecording;
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
-    Event, MarkerError, MarkerPath, MarkerRecording, RecordedMotion, RecordedMotionError, SegmentPoseError,
-    SubjectParameters, are_markers, events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc,
-    motion_from_c3d, segment_poses_from_mvnx, subject_from_c3d,
+    Event, MarkerError, MarkerPath, MarkerRecording, RecordedMotion, SegmentPoseError, SubjectParameters, are_markers,
+    events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d, segment_poses_from_mvnx,
+    subject_from_c3d,
 };
 use crate::spatial::Vec3;
 use ambulo_formats::c3d::C3d;
@@ -36,10 +36,7 @@ pub enum LaboratoryFileError {
     /// The markers of a TRC or a table.
     #[error(transparent)]
     Markers(#[from] MarkerError),
-    /// The markers or poses of a C3D.
-    #[error(transparent)]
-    Motion(#[from] RecordedMotionError),
-    /// The poses of a motion of Xsens MVN.
+    /// The markers or poses of a C3D, or the poses of a motion of Xsens MVN.
     #[error(transparent)]
     Poses(#[from] SegmentPoseError),
     /// The force plates.

@@ -7,6 +7,7 @@ use crate::ground::predict::PredictSettings;
 use crate::kinematics::marker_fit::FitSettings;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
+use serde::Deserialize;
 
 /// How a recording is processed. [`Settings::default`] has every default of Ambulo.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +30,7 @@ pub struct Settings {
     pub prediction: PredictSettings,
     /// How markers are fitted.
     pub marker_fit: FitSettings,
-    /// Whether a recorded motion is changed so that loaded feet do not slide ([`crate::ground::refit`]).
+    /// Whether a recorded motion is changed so that loaded feet do not slide.
     pub refit: bool,
     /// Residual reduction: what may change so that the motion agrees with the ground forces; `None` changes nothing.
     pub residual_reduction: Option<Adjustable>,
@@ -38,7 +39,9 @@ pub struct Settings {
 }
 
 /// How the ground forces are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum GroundSettings {
     /// Measured forces where there are any, otherwise predicted ones.
     #[default]

@@ -5,13 +5,16 @@ use crate::findings::{Code, Findings};
 use crate::model::{CoordinateKind, Displacement, Model};
 use crate::motion::Motion;
 use crate::spatial::Vec3;
+use serde::Deserialize;
 
 /// Along the vertical, rather than along the floor, if the upward part of a unit direction is larger: half a right
 /// angle.
 const UPWARD: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Mass and stature that are stated for the person who moved; a model of another size is scaled to them.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StatedSize {
     /// Body mass [kg].
     pub mass_kg: Option<f64>,

@@ -12,17 +12,19 @@ mod video;
 
 use crate::validate::recording::{self, Group, Recording};
 use crate::workspace;
-use ambulo::analysis::LaboratoryRecording;
 use ambulo::findings::Findings;
+use ambulo::job::Job;
 use ambulo::model::Side;
-use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::MarkerRecording;
 use ambulo::study::validation::TextTable as Table;
 use ambulo::study::{
-    self, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, MeasuredForces, Outcome, Settings, Source,
+    self, GroundSettings, MeasuredForces, Outcome, Recording as Recorded, Settings, Source, StatedSize, TrackedMarkers,
 };
+use ambulo_formats::trc::LengthUnit;
+use ambulo_report::trc_of_markers;
 use cpu_time::ThreadTime;
 use made::{Errors, keypoints, tracked, with_errors};
+use std::path::Path;
 
 const ERRORS: [Errors; 4] = [made::NONE, made::WHITE, made::SLOW, made::ALL];
 /// Coordinates of the built-in body, without the side.
@@ -135,21 +137,27 @@ impl Reference {
         Ok(Reference { forces: source.forces.clone(), measured, predicted, clean, mass_kg, height_m })
     }
 
+    /// Keypoints as a recording of this person, with the plates and forces of the reference.
+    fn source(&self, markers: &MarkerRecording, tracked: &TrackedMarkers) -> Result<Source, String> {
+        let mut file = trc_of_markers(markers).map_err(|e| e.to_string())?;
+        // In metres, a file has the numbers to the last bit.
+        file.unit = LengthUnit::Metre;
+        let file = file.write();
+        let size = StatedSize { mass_kg: Some(self.mass_kg), height_m: Some(self.height_m) };
+        let job = Job { size, ..Job::of("keypoints.trc") };
+        let read = job.read(&mut |_: &Path| Ok(file.clone()), &mut Findings::default());
+        let mut source = read.map_err(|error| error.text())?.source.with_forces(self.forces.clone());
+        if let Recorded::Markers(recorded) = &mut source.recording {
+            recorded.trial.recording.plates.clone_from(&tracked.body.plates);
+        }
+        Ok(source)
+    }
+
     fn compared(&self, errors: Errors, seed: u64) -> Result<Row, String> {
         let tracked = tracked(&self.measured)?;
         let markers = with_errors(&self.clean, errors, seed);
-        let plates = tracked.body.plates.clone();
         let frames = markers.times.len();
-        let recording = LaboratoryRecording { markers, poses: None, plates, unit: "m".to_owned() };
-        let trial = LaboratoryFile { recording, events: Vec::new(), subject: Default::default() };
-        let body = MarkerBody::BuiltIn {
-            table: SegmentTable::DeLevaMale,
-            mass_kg: Some(self.mass_kg),
-            height_m: Some(self.height_m),
-            set: None,
-        };
-        let source = Source::markers(MarkerSource { trial, standing: None, body, plates: Vec::new() })
-            .with_forces(self.forces.clone());
+        let source = self.source(&markers, tracked)?;
         let began = ThreadTime::now();
         let predicted = outcome(source.clone(), GroundSettings::Predicted)?;
         let seconds = began.elapsed().as_secs_f64() * 100.0 / frames as f64;

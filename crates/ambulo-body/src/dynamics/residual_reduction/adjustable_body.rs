@@ -1,6 +1,5 @@
 //! Parameters of the body that residual reduction may adjust: total mass and the trunk's mass centre.
 
-use super::result::BodyChange;
 use super::settings::{
     CENTER_TOLERANCE_M, MASS_TOLERANCE, MOST_CENTER_M, MOST_MASS_SHARE, ResidualReductionError,
     ResidualReductionSettings,
@@ -51,22 +50,26 @@ impl<'a> AdjustableBody<'a> {
         }
     }
 
-    /// The adjustment that these parameter values mean.
-    pub(super) fn change(&self, values: &[f64]) -> BodyChange {
-        let mut change =
-            BodyChange { trunk: self.model.bodies()[self.trunk.index()].name.clone(), ..BodyChange::default() };
+    /// Name of the trunk.
+    pub(super) fn trunk(&self) -> &str {
+        &self.model.bodies()[self.trunk.index()].name
+    }
+
+    /// The share that these parameter values add to all masses, and the displacement of the trunk's mass centre [m].
+    pub(super) fn change(&self, values: &[f64]) -> (f64, Vec3) {
+        let (mut mass_share, mut center_m) = (0.0, Vec3::zeros());
         for (parameter, value) in self.parameters.iter().zip(values) {
             match parameter {
-                Parameter::Mass => change.mass_share = *value,
-                Parameter::Center(axis) => change.trunk_center_m[*axis] = *value,
+                Parameter::Mass => mass_share = *value,
+                Parameter::Center(axis) => center_m[*axis] = *value,
             }
         }
-        change
+        (mass_share, center_m)
     }
 
     /// The model with these parameter values.
     pub(super) fn with(&self, values: &[f64]) -> Result<Model, ResidualReductionError> {
-        let BodyChange { mass_share, trunk_center_m, .. } = self.change(values);
+        let (mass_share, trunk_center_m) = self.change(values);
         let mut model = self.model.clone();
         if self.parameters.is_empty() {
             return Ok(model);

@@ -9,15 +9,6 @@ use crate::spatial::{Mat3, Vec3, Wrench};
 /// size; accelerations enter linearly, so any step is exact.
 const STEPS: [f64; 3] = [1e-6, 1e-4, 1.0];
 
-/// Residual and foot poses of a frame.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct FrameState {
-    /// Residual wrench at the root.
-    pub(super) root: Wrench,
-    /// Pose of each body that carries a load.
-    pub(super) feet: Vec<FootPose>,
-}
-
 /// Pose of a body: its mass centre and the axes of its frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FootPose {
@@ -25,7 +16,7 @@ pub(super) struct FootPose {
     pub(super) rotation: Mat3,
 }
 
-/// Derivatives of a [`FrameState`] by the free coordinates.
+/// Derivatives of what [`FrameEvaluator::evaluate`] gives by the free coordinates.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FrameSlopes {
     /// Of the residual force and moment: by value, rate and acceleration, one entry per coordinate.
@@ -42,20 +33,22 @@ pub(super) struct FrameEvaluator {
 }
 
 impl FrameEvaluator {
-    /// The state of a frame under its loads.
-    pub(super) fn evaluate(&self, workspace: &mut Workspace, instant: &Instant, loads: &[BodyLoad]) -> FrameState {
+    /// Residual wrench at the root of a frame under its loads, and the pose of each body that carries a load.
+    pub(super) fn evaluate(
+        &self,
+        workspace: &mut Workspace,
+        instant: &Instant,
+        loads: &[BodyLoad],
+    ) -> (Wrench, Vec<FootPose>) {
         let forces: FrameForces<'_> = inverse_frame(workspace, instant.posture(), loads);
         let place = |body: &BodyId| {
             let motion = forces.body_motion(*body);
             FootPose { center: motion.center, rotation: motion.pose.rotation }
         };
-        FrameState {
-            root: self.roots.residual(|body| forces.reaction(body)),
-            feet: self.feet.iter().map(place).collect(),
-        }
+        (self.roots.residual(|body| forces.reaction(body)), self.feet.iter().map(place).collect())
     }
 
-    /// Derivatives by forward differences around `state`. Only the first `derivatives` of value, rate and acceleration
+    /// Derivatives by forward differences. Only the first `derivatives` of value, rate and acceleration
     /// are varied: one outside the window, where the residual does not count.
     pub(super) fn slopes(
         &self,
@@ -66,7 +59,7 @@ impl FrameEvaluator {
         derivatives: usize,
         slopes: &mut FrameSlopes,
     ) {
-        let still = self.evaluate(workspace, instant, loads);
+        let (still_root, still_feet) = self.evaluate(workspace, instant, loads);
         slopes.feet.iter_mut().for_each(Vec::clear);
         slopes.feet.resize(self.feet.len(), Vec::new());
         for derivative in 0..derivatives {
@@ -74,10 +67,10 @@ impl FrameEvaluator {
             for &c in &splines.coordinates {
                 let old = nudge(instant, derivative, c, STEPS[derivative]);
                 splines.follow(instant);
-                let moved = self.evaluate(workspace, instant, loads);
-                slopes.root[derivative].push(root_slope(&still.root, &moved.root, STEPS[derivative]));
+                let (moved_root, moved_feet) = self.evaluate(workspace, instant, loads);
+                slopes.root[derivative].push(root_slope(&still_root, &moved_root, STEPS[derivative]));
                 if derivative == 0 {
-                    for (foot, (a, b)) in slopes.feet.iter_mut().zip(still.feet.iter().zip(&moved.feet)) {
+                    for (foot, (a, b)) in slopes.feet.iter_mut().zip(still_feet.iter().zip(&moved_feet)) {
                         foot.push(b.displacement_from(a).map(|x| x / STEPS[0]));
                     }
                 }

@@ -40,7 +40,7 @@ mod problem;
 mod result;
 mod splines;
 
-pub use result::{BodyChange, CoordinateChange, FootChange, ReducedMotion, RootResidual};
+pub use result::{CoordinateChange, FootChange, ReducedMotion, RootResidual};
 pub use settings::{
     CENTER_TOLERANCE_M, MASS_TOLERANCE, MOST_CENTER_M, MOST_MASS_SHARE, ResidualReductionError,
     ResidualReductionSettings,
@@ -146,7 +146,7 @@ fn problem<'a>(
     let mut recorded_feet: Vec<Vec<FootPose>> = Vec::with_capacity(region.frames.len());
     for frame in region.frames.clone() {
         instant.take(trajectory, frame);
-        recorded_feet.push(evaluator.evaluate(&mut workspace, &instant, &[]).feet);
+        recorded_feet.push(evaluator.evaluate(&mut workspace, &instant, &[]).1);
     }
     let weight = model.mass() * model.gravity().norm();
     let [force, moment] = [settings.residual_force_bw, settings.residual_moment_bw_m].map(|share| share * weight);
@@ -184,12 +184,15 @@ impl ReductionProblem<'_> {
             CoordinateChange::of(model, c, before, after, window.clone())
         });
         let grid = self.trajectory.grid();
+        let (mass_share, trunk_center_m) = self.body.change(&unknowns.numbers);
         Ok(ReducedMotion {
             residual_before: RootResidual::of(&self.root_residuals(&untouched)?, weight),
             residual_after: RootResidual::of(&self.root_residuals(unknowns)?, weight),
             changes: changes.collect(),
             feet: self.feet(model, &trajectory),
-            body: self.body.change(&unknowns.numbers),
+            mass_share,
+            trunk: self.body.trunk().to_owned(),
+            trunk_center_m,
             window_s: [grid.time(window.start), grid.time(window.end - 1)],
             iterations: termination.iterations,
             converged: termination.converged,
@@ -205,7 +208,7 @@ impl ReductionProblem<'_> {
         let mut away: Vec<Vec<[f64; 2]>> = vec![Vec::new(); self.evaluator.feet.len()];
         for (recorded_feet, frame) in self.recorded_feet.iter().zip(self.region.frames.clone()) {
             instant.take(changed, frame);
-            let places = self.evaluator.evaluate(&mut workspace, &instant, &[]).feet;
+            let (_, places) = self.evaluator.evaluate(&mut workspace, &instant, &[]);
             for (away, (place, before)) in away.iter_mut().zip(places.iter().zip(recorded_feet)) {
                 let [x, y, z, a, b, c] = place.displacement_from(before);
                 away.push([hypot(hypot(x, y), z), hypot(hypot(a, b), c)]);

@@ -113,11 +113,11 @@ impl ReductionProblem<'_> {
         for (recorded_feet, frame) in self.recorded_feet.iter().zip(self.region.frames.clone()) {
             self.splines.write(self.trajectory, frame, &at.coefficients, &mut instant);
             self.loads_at(frame, &mut loads);
-            let state = self.evaluator.evaluate(&mut workspace, &instant, &loads);
+            let (root, feet) = self.evaluator.evaluate(&mut workspace, &instant, &loads);
             if self.region.window.contains(&frame) {
-                cost += squares(&six(&state.root), &self.root_scale);
+                cost += squares(&six(&root), &self.root_scale);
             }
-            for (place, before) in state.feet.iter().zip(recorded_feet) {
+            for (place, before) in feet.iter().zip(recorded_feet) {
                 cost += squares(&place.displacement_from(before), &self.foot_scale);
             }
             let spline = self.splines.at(frame);
@@ -147,7 +147,7 @@ impl ReductionProblem<'_> {
         for frame in self.region.window.clone() {
             self.splines.write(self.trajectory, frame, &at.coefficients, &mut instant);
             self.loads_at(frame, &mut loads);
-            list.push(self.evaluator.evaluate(&mut workspace, &instant, &loads).root);
+            list.push(self.evaluator.evaluate(&mut workspace, &instant, &loads).0);
         }
         Ok(list)
     }
@@ -166,7 +166,7 @@ impl ReductionProblem<'_> {
             let spline = self.splines.at(frame);
             let enforced = self.region.window.contains(&frame);
             local.clear(spline.count * self.splines.coordinates.len(), numbers);
-            let state = self.evaluator.evaluate(&mut workspace, &instant, &loads);
+            let (root, feet) = self.evaluator.evaluate(&mut workspace, &instant, &loads);
             self.evaluator.slopes(
                 &mut workspace,
                 &self.splines,
@@ -178,11 +178,11 @@ impl ReductionProblem<'_> {
             if enforced {
                 let of_body: Vec<[f64; 6]> = nudged
                     .iter_mut()
-                    .map(|other| root_slope(&state.root, &self.evaluator.evaluate(other, &instant, &loads).root, NUDGE))
+                    .map(|other| root_slope(&root, &self.evaluator.evaluate(other, &instant, &loads).0, NUDGE))
                     .collect();
-                local.add_root(&spline, &six(&state.root), &slopes.root, &of_body, &self.root_scale);
+                local.add_root(&spline, &six(&root), &slopes.root, &of_body, &self.root_scale);
             }
-            for (foot, (place, before)) in slopes.feet.iter().zip(state.feet.iter().zip(recorded_feet)) {
+            for (foot, (place, before)) in slopes.feet.iter().zip(feet.iter().zip(recorded_feet)) {
                 local.add_foot(&spline, &place.displacement_from(before), foot, &self.foot_scale);
             }
             for (k, tolerances) in self.splines.tolerances(frame).enumerate() {

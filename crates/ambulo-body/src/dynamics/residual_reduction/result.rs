@@ -20,8 +20,12 @@ pub struct ReducedMotion {
     pub changes: Vec<CoordinateChange>,
     /// Displacement of each body that carries a load.
     pub feet: Vec<FootChange>,
-    /// Adjustment of the body.
-    pub body: BodyChange,
+    /// All masses and inertias were multiplied by 1 + this.
+    pub mass_share: f64,
+    /// Name of the trunk segment.
+    pub trunk: String,
+    /// Displacement of its mass centre, in its own axes [m].
+    pub trunk_center_m: Vec3,
     /// First and last instant at which Newton's laws were enforced [s].
     pub window_s: [f64; 2],
     /// Number of iterations.
@@ -68,17 +72,6 @@ pub struct FootChange {
     pub max_m: f64,
     /// Largest rotation [rad].
     pub max_rad: f64,
-}
-
-/// Adjustment of mass and trunk.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct BodyChange {
-    /// All masses and inertias were multiplied by 1 + this.
-    pub mass_share: f64,
-    /// Name of the trunk segment.
-    pub trunk: String,
-    /// Displacement of its mass centre, in its own axes [m].
-    pub trunk_center_m: Vec3,
 }
 
 impl ReducedMotion {

@@ -21,20 +21,14 @@ pub(super) struct Fitted {
     iterations: Vec<usize>,
     converged: Vec<bool>,
     solves: usize,
-    corrections: Vec<Correction>,
-}
-
-/// A corrected position [m] of a marker of the recording in a frame; NaN removes the marker there.
-struct Correction {
-    marker: usize,
-    frame: usize,
-    position: Vec3,
+    /// Marker of the recording, frame, and the corrected position there [m]; NaN removes the marker.
+    corrections: Vec<(usize, usize, Vec3)>,
 }
 
 impl Fitted {
     /// Returns the result and the corrected recording.
     pub(super) fn following(self, mut recording: MarkerRecording) -> (MarkerFit, MarkerRecording) {
-        for Correction { marker, frame, position } in &self.corrections {
+        for (marker, frame, position) in &self.corrections {
             recording.markers[*marker].positions[*frame] = *position;
         }
         (self.alone(), recording)
@@ -162,7 +156,7 @@ fn corrections(
     problem: &mut FitProblem<'_>,
     frames: &Frames,
     states: &[Determination],
-) -> Vec<Correction> {
+) -> Vec<(usize, usize, Vec3)> {
     let mut all = Vec::new();
     let numbers: Vec<Option<usize>> =
         problem.paths.iter().map(|path| recording.markers.iter().position(|m| m.name == path.name)).collect();
@@ -183,7 +177,7 @@ fn corrections(
                 offset if is_posed && offset.iter().all(|x| x.is_finite()) => problem.place(i, &offset),
                 _ => Vec3::repeat(f64::NAN),
             };
-            all.push(Correction { marker, frame, position });
+            all.push((marker, frame, position));
         }
     }
     all

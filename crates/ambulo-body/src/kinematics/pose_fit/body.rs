@@ -8,7 +8,8 @@ use crate::kinematics::skeleton_body::{
     JointCentreError, body_of_joint_centres, measured_distance, standing_ankle_height,
 };
 use crate::model::anthropometry::{Build, Human};
-use crate::model::full_body::{SolePlacement, full_body};
+use crate::model::full_body::full_body;
+use crate::model::subject_shape::SolePlacement;
 use crate::model::{Body, Model, ModelError, Side};
 use crate::motion::{MarkerRecording, PosedSegment, SegmentPoses};
 use crate::spatial::{Mat3, Pose};

@@ -27,7 +27,7 @@
 //! Pinned by: tests/scaling.rs
 
 use super::ScalingError;
-use super::standing::{MovedMarker, at_rest, complete, with_markers_placed};
+use super::standing::{at_rest, complete, with_markers_placed};
 use crate::findings::Findings;
 use crate::kinematics::marker_fit::rows::{MarkerRow, MarkerRows};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
@@ -54,13 +54,6 @@ const STEPS: usize = 100;
 /// Step of the numerical derivative by the logarithm of a size: the second-order error is 1e-10.
 const DIFFERENCE: f64 = 1e-5;
 
-/// Settings of [`fit_size`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SizeSettings {
-    /// Body mass [kg]; `None` keeps the value of the model.
-    pub mass: Option<f64>,
-}
-
 /// A model scaled to a person, with the positions of the person's markers.
 #[derive(Debug, Clone)]
 pub struct SizedModel {
@@ -75,18 +68,17 @@ pub struct SizedModel {
     pub rms_before_m: Option<f64>,
     /// The same for the scaled model, before its markers were moved [m].
     pub rms_m: Option<f64>,
-    /// Distances by which markers were moved on their bodies.
-    pub moved: Vec<MovedMarker>,
 }
 
-/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person.
+/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person. The
+/// body mass [kg] is that of the model if it is `None`.
 ///
 /// # Errors
 /// Markers that cannot be fitted, a mass that is not positive.
 pub fn fit_size(
     model: &Model,
     standing: &MarkerRecording,
-    settings: SizeSettings,
+    mass: Option<f64>,
     findings: &mut Findings,
 ) -> Result<SizedModel, ScalingError> {
     let standing = at_rest(standing, findings);
@@ -107,14 +99,14 @@ pub fn fit_size(
     problem.is_robust = true;
     minimise(&mut problem, &mut z, STEPS);
     let factors = problem.factors(&z);
-    let scaled = model.scaled(&factors, settings.mass)?;
+    let scaled = model.scaled(&factors, mass)?;
     let rows = problem.rows(&z)?;
     let square: f64 = rows.residuals().iter().map(|r| r.norm_squared()).sum();
     let rms_m = (square / rows.residuals().len() as f64).sqrt();
     let posture = complete(&scaled, |i| rows.unknown_of(i).map(|u| z[u]));
-    let (model, moved) = with_markers_placed(&scaled, &standing, &posture, |_| true)?;
+    let model = with_markers_placed(&scaled, &standing, &posture, |_| true)?;
     let rms_before_m = start.rms_m.first().copied();
-    Ok(SizedModel { model, factors, posture, rms_before_m, rms_m: Some(rms_m), moved })
+    Ok(SizedModel { model, factors, posture, rms_before_m, rms_m: Some(rms_m) })
 }
 
 struct Problem<'a> {

@@ -13,11 +13,9 @@ mod measurement;
 mod protocol;
 mod standing;
 
-pub use joint_fit::{SizeSettings, SizedModel, fit_size};
+pub use joint_fit::{SizedModel, fit_size};
 pub use measurement::{DistanceMeasurement, MeasuredBody, measured_factors};
 pub use protocol::{MarkerPlacement, ProtocolTrials, ScalingProtocol, ScalingStep, fit_weights, scale_by_protocol};
-
-pub use standing::MovedMarker;
 
 use super::marker_fit::FitError;
 use crate::model::{ModelError, ScaleError};

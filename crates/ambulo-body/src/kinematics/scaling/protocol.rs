@@ -12,7 +12,7 @@
 //! Pinned by: tests/scaling.rs, against OpenSim 4.6
 
 use super::measurement::{DistanceMeasurement, apply_measurements, known_body};
-use super::standing::{MovedMarker, complete, mean_positions, with_markers_placed};
+use super::standing::{complete, mean_positions, with_markers_placed};
 use super::{ScalingError, SizedModel};
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{CoordinateTask, FitSettings, OutlierDetection, fit_markers};
@@ -81,7 +81,7 @@ pub fn scale_by_protocol(
     let scaled = model.scaled_with(&factors, protocol.mass_kg, protocol.masses)?;
     let Some(placement) = &protocol.placement else {
         let posture = complete(&scaled, |_| None);
-        return Ok(SizedModel { model: scaled, factors, posture, rms_before_m: None, rms_m: None, moved: Vec::new() });
+        return Ok(SizedModel { model: scaled, factors, posture, rms_before_m: None, rms_m: None });
     };
     let standing = trials.standing.ok_or(ScalingError::NoTrial { step: "the placement of markers" })?;
     let standing = mean_positions(&during(standing, placement.standing_s)?);
@@ -94,14 +94,13 @@ pub fn scale_by_protocol(
     let before = fit_markers(model, &standing, &settings, &mut Findings::default())?;
     let fit = fit_markers(&scaled, &standing, &settings, findings)?;
     let posture = complete(&scaled, |i| Some(fit.motion.columns[i].as_ref()?[0]));
-    let (placed, moved) = placed(&scaled, &standing, &posture, findings)?;
+    let placed = placed(&scaled, &standing, &posture, findings)?;
     Ok(SizedModel {
         model: placed,
         factors,
         posture,
         rms_before_m: before.rms_m.first().copied(),
         rms_m: fit.rms_m.first().copied(),
-        moved,
     })
 }
 
@@ -171,7 +170,7 @@ fn placed(
     standing: &MarkerRecording,
     posture: &[f64],
     findings: &mut Findings,
-) -> Result<(Model, Vec<MovedMarker>), ScalingError> {
+) -> Result<Model, ScalingError> {
     let is_seen = |m: &Marker| standing.marker(&m.name).is_some_and(|path| path.is_seen(0));
     let (kept, lost): (Vec<Marker>, Vec<Marker>) = scaled.markers().iter().cloned().partition(is_seen);
     if !lost.is_empty() {

@@ -82,32 +82,21 @@ pub(super) fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
     body_motion(model, Posture { q, qd: &zeros, qdd: &zeros }).into_iter().map(|b| b.pose).collect()
 }
 
-/// A marker that was moved on its body.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MovedMarker {
-    /// Name of the marker.
-    pub name: String,
-    /// Distance [m].
-    pub distance_m: f64,
-}
-
 /// Moves visible markers to their recorded positions on their bodies in this posture, if `moves` them.
 pub(super) fn with_markers_placed(
     model: &Model,
     standing: &MarkerRecording,
     q: &[f64],
     moves: impl Fn(&Marker) -> bool,
-) -> Result<(Model, Vec<MovedMarker>), ScalingError> {
+) -> Result<Model, ScalingError> {
     let poses = poses(model, q);
-    let mut moved = Vec::new();
     let place = |marker: &Marker| {
         let seen =
             standing.marker(&marker.name).map(|path| path.positions[0]).filter(|p| p.iter().all(|x| x.is_finite()));
         let (Some(body), Some(position), true) = (marker.body, seen, moves(marker)) else { return marker.clone() };
         let location = poses[body.index()].inverse().place(position);
-        moved.push(MovedMarker { name: marker.name.clone(), distance_m: (location - marker.location).norm() });
         Marker { location, ..marker.clone() }
     };
     let markers = model.markers().iter().map(place).collect();
-    Ok((model.with_markers(markers)?, moved))
+    Ok(model.with_markers(markers)?)
 }

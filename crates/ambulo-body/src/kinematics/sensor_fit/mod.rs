@@ -131,7 +131,7 @@ pub fn fit_sensors(
     if !undetermined.is_empty() {
         return Err(SensorError::Undetermined { coordinates: undetermined.join(", ") });
     }
-    let tips = Tips::new(trial.moving, &placed, &turn);
+    let tips = tips(trial.moving, &placed, &turn);
     let fitted = directions_of(model, &placed)?;
     let weights = placed.iter().flat_map(|sensor| {
         let weight = settings.weights.get(&sensor.name).copied().unwrap_or(1.0);
@@ -144,7 +144,7 @@ pub fn fit_sensors(
         ..settings.clone()
     };
     // Its findings speak of markers; gaps of sensors are reported here.
-    let fit = fit_markers(&fitted, &tips.recording, &settings, &mut Findings::default())?;
+    let fit = fit_markers(&fitted, &tips, &settings, &mut Findings::default())?;
     report_gaps(trial.moving, &placed, findings);
     let rms = |name: String| fit.errors.iter().find(|error| error.name == name).map_or(0.0, |error| error.rms_m);
     let angle = |name: &str| {
@@ -176,26 +176,19 @@ fn tip(sensor: &str, axis: usize) -> String {
     format!("{sensor}:{}", ["x", "y", "z"][axis])
 }
 
-/// The tips of the axes of sensors, as markers around the origin.
-struct Tips {
-    recording: MarkerRecording,
-}
-
-impl Tips {
-    /// `turn` is world from earth, with the heading.
-    fn new(moving: &SensorRecording, placed: &[PlacedSensor], turn: &Mat3) -> Tips {
-        let path = |sensor: &PlacedSensor, axis: usize| {
-            let place = |orientation: &Option<Mat3>| {
-                orientation.map_or(Vec3::repeat(f64::NAN), |orientation| turn * orientation.column(axis))
-            };
-            let positions = moving.sensors[sensor.number].orientations.iter().map(place).collect();
-            MarkerPath { name: tip(&sensor.name, axis), positions }
+/// The tips of the axes of sensors, as markers around the origin; `turn` is world from earth, with the heading.
+fn tips(moving: &SensorRecording, placed: &[PlacedSensor], turn: &Mat3) -> MarkerRecording {
+    let path = |sensor: &PlacedSensor, axis: usize| {
+        let place = |orientation: &Option<Mat3>| {
+            orientation.map_or(Vec3::repeat(f64::NAN), |orientation| turn * orientation.column(axis))
         };
-        let markers = placed.iter().flat_map(|sensor| AXES.map(|axis| path(sensor, axis))).collect();
-        let span = moving.times.last().zip(moving.times.first()).map_or(0.0, |(last, first)| last - first);
-        let rate_hz = (moving.times.len().saturating_sub(1)) as f64 / span.max(f64::MIN_POSITIVE);
-        Tips { recording: MarkerRecording { name: moving.name.clone(), rate_hz, times: moving.times.clone(), markers } }
-    }
+        let positions = moving.sensors[sensor.number].orientations.iter().map(place).collect();
+        MarkerPath { name: tip(&sensor.name, axis), positions }
+    };
+    let markers = placed.iter().flat_map(|sensor| AXES.map(|axis| path(sensor, axis))).collect();
+    let span = moving.times.last().zip(moving.times.first()).map_or(0.0, |(last, first)| last - first);
+    let rate_hz = (moving.times.len().saturating_sub(1)) as f64 / span.max(f64::MIN_POSITIVE);
+    MarkerRecording { name: moving.name.clone(), rate_hz, times: moving.times.clone(), markers }
 }
 
 /// The model without lengths, with the tips of the axes of the sensors as markers: all joints are at the origin, so

@@ -11,7 +11,7 @@ mod segment;
 mod template;
 
 pub use landmark::Landmark;
-pub use recognised::{NamedMarker, RecognisedMarkers, RecognitionError, UnknownMarkers};
+pub use recognised::{NamedMarker, RecognisedMarkers, RecognitionError};
 pub use segment::Segment;
 pub use template::marker_template;
 
@@ -49,16 +49,6 @@ pub struct MarkerDefinition {
     pub weight: f64,
 }
 
-/// A set that is not built in.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("no marker set is named `{found}`; expected one of {known}, or a TOML file as described in docs/MARKERS.md")]
-pub struct UnknownSet {
-    /// The requested name.
-    pub found: String,
-    /// The built-in sets.
-    pub known: String,
-}
-
 /// Why a set cannot be loaded.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -72,8 +62,15 @@ pub enum MarkerSetError {
         source: TomlError,
     },
     /// A name that no built-in set has.
-    #[error(transparent)]
-    Unknown(#[from] UnknownSet),
+    #[error(
+        "no marker set is named `{found}`; expected one of {known}, or a TOML file as described in docs/MARKERS.md"
+    )]
+    Unknown {
+        /// The requested name.
+        found: String,
+        /// The built-in sets.
+        known: String,
+    },
 }
 
 /// The built-in sets: name and file.
@@ -116,7 +113,7 @@ impl MarkerSet {
     /// A name that no built-in set has.
     pub fn named(name: &str) -> Result<MarkerSet, MarkerSetError> {
         let Some(place) = MarkerSet::NAMES.iter().position(|known| known.eq_ignore_ascii_case(name)) else {
-            return Err(UnknownSet { found: name.to_owned(), known: MarkerSet::NAMES.join(", ") }.into());
+            return Err(MarkerSetError::Unknown { found: name.to_owned(), known: MarkerSet::NAMES.join(", ") });
         };
         Ok(MarkerSet::built_in()?[place].clone())
     }

@@ -32,33 +32,28 @@ pub struct RecognisedMarkers {
     pub unknown: Vec<String>,
 }
 
-/// No set explains the names.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has \
-     {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a small \
-     TOML file described there; markers of an OpenSim model need that model"
-)]
-pub struct UnknownMarkers {
-    /// Number of markers.
-    pub count: usize,
-    /// The first names.
-    pub found: String,
-    /// Number of names that the best set explains.
-    pub cover: usize,
-    /// The best set.
-    pub best: String,
-    /// Some of its names.
-    pub needed: String,
-}
-
 /// Why names are not recognised.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecognitionError {
     /// No set explains the names.
-    #[error(transparent)]
-    Unknown(#[from] UnknownMarkers),
+    #[error(
+        "no marker set fits: of the {count} markers {found} at most {cover} belong to one set (`{best}`, which has \
+         {needed}); expected at least {LEAST_COVER}. hint: docs/MARKERS.md lists all names; your own names go into a \
+         small TOML file described there; markers of an OpenSim model need that model"
+    )]
+    Unknown {
+        /// Number of markers.
+        count: usize,
+        /// The first names.
+        found: String,
+        /// Number of names that the best set explains.
+        cover: usize,
+        /// The best set.
+        best: String,
+        /// Some of its names.
+        needed: String,
+    },
     /// A built-in set cannot be read.
     #[error(transparent)]
     Set(#[from] MarkerSetError),
@@ -75,7 +70,7 @@ impl MarkerSet {
     /// Names that no set explains.
     pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<RecognisedMarkers, RecognitionError> {
         let names: Vec<&str> = names.into_iter().collect();
-        Ok(RecognisedMarkers::indexed(MarkerSet::built_in()?, &BUILT_IN_INDICES, &names)?)
+        RecognisedMarkers::indexed(MarkerSet::built_in()?, &BUILT_IN_INDICES, &names)
     }
 }
 
@@ -89,7 +84,7 @@ impl RecognisedMarkers {
     pub fn among<'n>(
         sets: &[MarkerSet],
         names: impl IntoIterator<Item = &'n str>,
-    ) -> Result<RecognisedMarkers, UnknownMarkers> {
+    ) -> Result<RecognisedMarkers, RecognitionError> {
         let names: Vec<&str> = names.into_iter().collect();
         let indices: Vec<NameIndex<'_>> = sets.iter().map(NameIndex::new).collect();
         RecognisedMarkers::indexed(sets, &indices, &names)
@@ -100,7 +95,7 @@ impl RecognisedMarkers {
         sets: &[MarkerSet],
         indices: &[NameIndex<'_>],
         names: &[&str],
-    ) -> Result<RecognisedMarkers, UnknownMarkers> {
+    ) -> Result<RecognisedMarkers, RecognitionError> {
         let plain = RecordedName::all(names);
         let mut search = Search { sets, indices, names: &plain, found: vec![None; names.len()], used: vec![] };
         // Where twice as many names mean the same as are written the same, the laboratory writes them in its own way.
@@ -190,14 +185,14 @@ impl Search<'_> {
     }
 
     /// The error of names that no set explains.
-    fn nothing(&self, names: &[&str]) -> UnknownMarkers {
+    fn nothing(&self, names: &[&str]) -> RecognitionError {
         let found = listed(names.iter().copied());
         let best = (0..self.sets.len()).rev().max_by_key(|set| self.gain(*set, NameReading::Meant));
         let Some(best) = best else {
             let (best, needed) = ("none".to_owned(), "no markers".to_owned());
-            return UnknownMarkers { count: names.len(), found, cover: 0, best, needed };
+            return RecognitionError::Unknown { count: names.len(), found, cover: 0, best, needed };
         };
-        UnknownMarkers {
+        RecognitionError::Unknown {
             count: names.len(),
             found,
             cover: self.gain(best, NameReading::Meant),

@@ -1,9 +1,11 @@
 //! Why poses of segments cannot be used.
 
+use crate::motion::marker_recording::MarkerError;
+
 /// Smallest share of frames that the file must have between the first and the last.
 pub(super) const ONE_IN: u64 = 10;
 
-/// Why poses of segments cannot be used.
+/// Why poses of segments, or the markers in their place, cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SegmentPoseError {
@@ -58,4 +60,7 @@ pub enum SegmentPoseError {
         /// Where it is in a person.
         expected: &'static str,
     },
+    /// Markers of a file without poses.
+    #[error(transparent)]
+    Markers(#[from] MarkerError),
 }

@@ -33,9 +33,10 @@ mod upright_posture;
 
 pub use error::SkeletonError;
 pub use joint_paths::joint_paths;
+pub(crate) use rig::PostureChange;
 #[doc(hidden)]
 pub use rig::RiggedMotion;
-pub use rig::{PostureChange, Rig, RigDifferences, RigLimits};
+pub use rig::{Rig, RigDifferences, RigLimits};
 
 use crate::findings::{Code, Findings};
 use crate::motion::{MarkerPath, MarkerRecording};

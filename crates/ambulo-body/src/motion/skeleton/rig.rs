@@ -30,18 +30,18 @@ use ambulo_formats::bvh::{Bvh, ChannelKind};
 
 /// How the posture of a body changes in one frame, in world axes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PostureChange {
+pub(crate) struct PostureChange {
     /// Displacement of mid-hip [m].
-    pub mid_hip: Vec3,
+    pub(crate) mid_hip: Vec3,
     /// The rotation that turns each segment, in the order of the segments of the [`Rig`].
-    pub turns: Vec<Mat3>,
+    pub(crate) turns: Vec<Mat3>,
 }
 
 /// The skeleton of an animation file, whose motion can be changed. A frame is the values of all channels of the file.
 pub struct Rig<'b> {
     interpreted: Interpreted<'b>,
     recording: SkeletonRecording,
-    /// For each joint the place of its segment in [`PostureChange::turns`].
+    /// For each joint the place of its segment in `PostureChange::turns`.
     drivers: Vec<Option<usize>>,
     /// The joint that moves mid-hip.
     mover: Option<usize>,
@@ -130,7 +130,7 @@ impl<'b> Rig<'b> {
     }
 
     /// Changes the posture in a frame. Missing values stay missing.
-    pub fn change(&self, values: &mut [f64], change: &PostureChange) {
+    pub(crate) fn change(&self, values: &mut [f64], change: &PostureChange) {
         let skeleton = &self.interpreted.skeleton;
         let world_from_file = self.recording.world_from_file;
         let before = skeleton.poses_of(values);

@@ -16,13 +16,13 @@ use crate::args::Shard;
 use crate::folder_lock::FolderLock;
 use crate::replacement::write_through;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
+use ambulo_results::BATCH;
 use anyhow::{Context, Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-const DESCRIPTION: &str = "batch.json";
 const TABLES: [&str; 4] = [FRAMES, "cycles", "events", TRIALS];
 const FRAMES: &str = "frames";
 const TRIALS: &str = "trials";
@@ -68,7 +68,7 @@ impl Ledger {
         if folder.is_file() {
             bail!("{shown}: this is a file; expected a folder for the results");
         }
-        let path = folder.join(DESCRIPTION);
+        let path = folder.join(BATCH);
         let is_used = |folder: &Path| {
             fs::read_dir(folder)
                 .is_ok_and(|mut entries| entries.any(|entry| entry.is_ok_and(|entry| entry.file_name() != LOCKS)))
@@ -109,7 +109,7 @@ impl Ledger {
     /// Writes the description, or compares it with the one that is there.
     fn agree(&self, path: &Path, description: &Description) -> Result<()> {
         // Beside the lock: after a kill the folder is still one without other files.
-        let own = place_of_lock(&self.folder, self.shard).join(DESCRIPTION);
+        let own = place_of_lock(&self.folder, self.shard).join(BATCH);
         let text = serde_json::to_string_pretty(description)? + "\n";
         write_through(&own, text.as_bytes()).with_context(|| format!("{}: cannot be written", own.display()))?;
         // Of several shards that begin at once one is the first.

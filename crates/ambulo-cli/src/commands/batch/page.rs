@@ -7,10 +7,9 @@ use crate::printer::BatchRow;
 use ambulo::job::trials::PlannedTrial;
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use ambulo_report::{BATCH_QUANTITIES, BatchTrial, batch_page};
+use ambulo_results::BATCH_PAGE;
 use anyhow::Result;
 use std::collections::BTreeMap;
-
-const PAGE: &str = "summary.html";
 
 /// Writes the page. Trials are sorted by name, so that shards do not change the order.
 pub(super) fn write(
@@ -31,7 +30,7 @@ pub(super) fn write(
     let worst: Vec<(&BatchTrial, String)> = worst.collect();
     let root = args.source.canonicalize().unwrap_or_else(|_| args.source.clone());
     let page = batch_page(&files::last(&root), &trials, &worst)?;
-    files::write(&args.output.join(PAGE), page.as_bytes())
+    files::write(&args.output.join(BATCH_PAGE), page.as_bytes())
 }
 
 fn trials_of(table: &ParquetTable) -> Vec<(BatchRow, BatchTrial)> {

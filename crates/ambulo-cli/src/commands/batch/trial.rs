@@ -11,7 +11,9 @@ use ambulo::job::trials::{PlannedTrial, relative};
 use ambulo::job::{Shared, bids_files_beside};
 use ambulo::motion::Event;
 use ambulo_formats::table::Table;
-use ambulo_results::{CycleRow, Keep, cycle_rows, unit_of};
+use ambulo_results::{
+    CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, Keep, TIMES_AND_DISTANCES, cycle_rows, unit_of,
+};
 use anyhow::{Context, Error, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -20,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Tables whose columns have names of another table, and the prefix of these columns.
-const PREFIXES: [(&str, &str); 2] = [("grf_measured.mot", "measured_"), ("clinical.csv", "clinical_")];
+const PREFIXES: [(&str, &str); 2] = [(GROUND_MEASURED, "measured_"), (CLINICAL, "clinical_")];
 
 /// The work that a batch does on every trial.
 #[derive(Debug, Default)]
@@ -142,8 +144,8 @@ impl Work {
         Ok(Computed {
             summary: serde_json::to_value(&summary)?,
             frames,
-            cycles: if keep.includes("cycles.csv") { cycle_rows(body, &run.outcome.analysis) } else { Vec::new() },
-            events: if keep.includes("events.csv") { events.clone() } else { Vec::new() },
+            cycles: if keep.includes(CYCLES) { cycle_rows(body, &run.outcome.analysis) } else { Vec::new() },
+            events: if keep.includes(EVENTS) { events.clone() } else { Vec::new() },
         })
     }
 }
@@ -157,7 +159,7 @@ fn add_columns(
     unit: &dyn Fn(&str) -> &'static str,
 ) {
     let has_time = table.columns().next().is_some_and(|(name, _)| name == "time");
-    if !has_time || file == "times_and_distances.csv" {
+    if !has_time || file == TIMES_AND_DISTANCES {
         return;
     }
     for (name, values) in table.columns() {

@@ -32,11 +32,11 @@ pub(super) fn convert(args: &ConvertArgs, to: &str) -> Result<Converted> {
                 findings,
             });
         }
-        "glb" => glb_of_folder(&folder).map(|glb| {
+        "glb" => glb_of_folder(&folder).map(|(bytes, arrows)| {
             report_lost(&mut findings, &["joint moments and powers".to_owned(), "masses and inertias".to_owned()]);
-            let arrows = if glb.arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
+            let arrows = if arrows > 0 { "; arrows are 1 m for 1000 N" } else { "" };
             findings.report(Code::ConvertAxes, format!("lengths are in metres; x forward, y up, z right{arrows}"));
-            glb.bytes
+            bytes
         }),
         "bvh" => {
             report_lost(

@@ -2,21 +2,24 @@
 
 use super::run_one;
 use crate::Completion;
-use crate::args::ForcesArgs;
+use crate::args::Handling;
 use crate::caller::Caller;
 use crate::files::FilesOf;
+use crate::request::ForcesRequest;
 use ambulo::job::{Job, read_header};
 use anyhow::{Result, bail};
 
-pub(super) fn run(args: &ForcesArgs, job: &Job) -> Result<Completion> {
+pub(super) fn run(request: &ForcesRequest, how: Handling) -> Result<Completion> {
+    let job = &request.job;
     let header = read_header(&mut FilesOf(&Caller::default()), job.recording())?;
     let count = header.trials.len();
     let digits = count.to_string().len();
     let (mut failures, mut is_refused) = (Vec::new(), false);
     for (k, trial) in header.trials.iter().enumerate() {
         let number = k + 1;
-        let folder = args.output.join(format!("{number:0digits$}-{}", file_name(&trial.name)));
-        match run_one(args, &Job { trial: Some(number.to_string()), ..job.clone() }, &folder) {
+        let output = request.output.join(format!("{number:0digits$}-{}", file_name(&trial.name)));
+        let job = Job { trial: Some(number.to_string()), ..job.clone() };
+        match run_one(&ForcesRequest { job, output, ..request.clone() }, how) {
             Ok(completion) => is_refused |= completion == Completion::Failed,
             Err(error) => failures.push(format!("trial {number} (`{}`): {error:#}", trial.name)),
         }

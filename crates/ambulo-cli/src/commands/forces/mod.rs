@@ -6,16 +6,17 @@ mod record;
 use super::run_files::MotionRun;
 use super::stopwatch::Stopwatch;
 use crate::Completion;
-use crate::args::{ForcesArgs, Outputs};
+use crate::args::{Handling, Outputs};
 use crate::caller::Caller;
 use crate::files::FilesOf;
 use crate::replacement::ResultTarget;
+use crate::request::ForcesRequest;
 use ambulo::findings::{Code, Findings};
 use ambulo::job::{Job, ModelChoice, Reader, Shared, ending};
 use ambulo::model::Model;
 use ambulo::motion::SubjectParameters;
 use ambulo::study::{ForceOrigin, Outcome, Recording, Stage};
-use ambulo_results::{GroundSource, Input, Keep, OutputFile};
+use ambulo_results::{GroundSource, Input, Keep, OutputFile, SUBJECT};
 use anyhow::{Result, bail};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -23,19 +24,18 @@ use std::path::Path;
 /// The model of a trial in summaries, if none was given.
 const OWN_MODEL: &str = "the file's own";
 
-pub(crate) fn run(args: &ForcesArgs) -> Result<Completion> {
-    let job = args.job();
-    job.check()?;
-    if args.chooses_all_trials() {
-        return every_trial::run(args, &job);
+pub(crate) fn run(request: &ForcesRequest, how: Handling) -> Result<Completion> {
+    request.job.check()?;
+    if request.chooses_all_trials() {
+        return every_trial::run(request, how);
     }
-    run_one(args, &job, &args.output)
+    run_one(request, how)
 }
 
 /// Computes one recording into one folder.
-fn run_one(args: &ForcesArgs, job: &Job, output: &Path) -> Result<Completion> {
-    let target = ResultTarget::for_run(output, args.replace.existing())?;
-    compute(job, args.outputs(), &Caller::default())?.write(&target, args.print, args.check)
+fn run_one(request: &ForcesRequest, how: Handling) -> Result<Completion> {
+    let target = ResultTarget::for_run(&request.output, how.replace.existing())?;
+    compute(&request.job, request.outputs(), &Caller::default())?.write(&target, how.print, how.check)
 }
 
 /// Reads the recording and computes its forces.
@@ -98,10 +98,10 @@ fn check_recording(recording: &Path) -> Result<()> {
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.
 fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'static>> {
-    match OutputFile::body("subject.osim", model) {
+    match OutputFile::body(SUBJECT, model) {
         Ok(file) => Some(file),
         Err(reason) => {
-            findings.report(Code::SubjectNotWritten, format!("subject.osim was not written: {reason}"));
+            findings.report(Code::SubjectNotWritten, format!("{SUBJECT} was not written: {reason}"));
             None
         }
     }

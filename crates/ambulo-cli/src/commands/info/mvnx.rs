@@ -22,7 +22,7 @@ pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     sheet.value("rate_hz", mvnx.rate_hz);
     sheet.names("segments", &mvnx.segments.iter().map(|segment| segment.label.as_str()).collect::<Vec<_>>());
     sheet.names("joints", &mvnx.joints.iter().map(|joint| joint.label.as_str()).collect::<Vec<_>>());
-    sheet.names("calibration_poses", &mvnx.calibration.iter().map(|pose| pose.kind.as_str()).collect::<Vec<_>>());
+    sheet.names("calibration_poses", &mvnx.calibration.iter().map(|(kind, _)| kind.as_str()).collect::<Vec<_>>());
     add_contacts(&mut sheet, &mvnx);
     let mut findings = Findings::default();
     match segment_poses_from_mvnx(&mvnx, &mut findings) {

@@ -16,7 +16,7 @@ use ambulo::job::Job;
 use ambulo::job::trials::{Plan, PlannedTrial};
 use ambulo::job::visit::of_all_trials;
 use ambulo_report::{ComparedSession, ComputedTrial, ReferenceGroup, Session, SessionFacts, SessionTrial};
-use ambulo_results::{OutputFile, summary_json};
+use ambulo_results::{OutputFile, REFERENCE_GROUP, summary_json};
 use anonymous::Anonymous;
 use anyhow::{Result, bail};
 use one_body::Visit;
@@ -24,8 +24,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Name of the reference group that a session was compared with.
-const NORM: &str = "norm.json";
 /// Reasons that an error quotes.
 const QUOTED: usize = 3;
 
@@ -166,7 +164,7 @@ fn save(
     }
     let mut written = compared.files()?;
     if let Some(group) = &group {
-        written.push(OutputFile::new(NORM, group.to_json()?));
+        written.push(OutputFile::new(REFERENCE_GROUP, group.to_json()?));
     }
     let read = inputs(args, plan);
     let mut summary = compared.session.summary;

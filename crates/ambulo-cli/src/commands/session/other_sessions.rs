@@ -8,17 +8,12 @@ use crate::record::Record;
 use crate::{files, printer};
 use ambulo::job::trials::{Plan, PlannedTrial};
 use ambulo_report::{ReferenceGroup, Session, session_from_files};
-use ambulo_results::SUMMARY;
+use ambulo_results::{BATCH, CYCLES, SUMMARY};
 use anyhow::{Context, Error, Result, bail};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// The table that only a session has in this form.
-const CYCLES: &str = "cycles.csv";
-/// The file that only `ambulo batch` writes.
-const BATCH: &str = "batch.json";
 
 /// The keys by which the summary of a session differs from that of other results.
 #[derive(Deserialize)]

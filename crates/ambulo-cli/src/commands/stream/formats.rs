@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 /// A message to the command.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Message {
+pub struct Message {
     /// Names of the coordinates in the order of the values that follow.
-    pub(super) coordinates: Option<Vec<String>>,
+    pub coordinates: Option<Vec<String>>,
     /// Unit of angles that follow.
-    pub(super) angles: Option<AngleUnit>,
+    pub angles: Option<AngleUnit>,
     /// Number of the frame.
-    pub(super) frame: Option<u64>,
+    pub frame: Option<u64>,
     /// Its time [s].
     pub(super) time: Option<f64>,
     /// Its values; missing ones are null, or not-a-number in a record.
-    pub(super) q: Option<Vec<Option<f64>>>,
+    pub q: Option<Vec<Option<f64>>>,
     /// Names of the markers, or their positions in a frame.
     pub(super) markers: Option<Markers>,
     /// Unit of positions that follow.
@@ -71,8 +71,10 @@ impl Message {
 /// Unit of angles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum AngleUnit {
+pub enum AngleUnit {
+    /// Radians.
     Rad,
+    /// Degrees.
     Deg,
 }
 
@@ -122,7 +124,10 @@ pub(super) enum Answer {
 }
 
 /// Reads a line.
-pub(super) fn from_json(line: &[u8]) -> Result<Message> {
+///
+/// # Errors
+/// A line that is no message.
+pub fn from_json(line: &[u8]) -> Result<Message> {
     // Some programs begin a file with a byte order mark.
     let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
     serde_json::from_slice(line).map_err(|error| {
@@ -136,12 +141,16 @@ pub(super) fn from_json(line: &[u8]) -> Result<Message> {
 }
 
 /// Bytes of a record with so many values.
-pub(super) fn record_bytes(values: usize) -> usize {
+#[must_use]
+pub fn record_bytes(values: usize) -> usize {
     4 * (values + 1)
 }
 
 /// Reads a record.
-pub(super) fn from_record(record: &[u8], values: usize) -> Result<Message> {
+///
+/// # Errors
+/// A record of another size.
+pub fn from_record(record: &[u8], values: usize) -> Result<Message> {
     if record.len() != record_bytes(values) {
         let expected = record_bytes(values);
         bail!("a record of {} bytes; expected {expected}, the number of the frame and {values} values", record.len());
@@ -160,36 +169,8 @@ pub(super) fn to_json(message: &impl Serialize, out: &mut Vec<u8>) {
 }
 
 /// Appends a record.
-pub(super) fn to_record(frame: u64, values: &[f32], out: &mut Vec<u8>) {
+pub fn to_record(frame: u64, values: &[f32], out: &mut Vec<u8>) {
     // Numbers go on from zero after the largest.
     out.extend((frame as u32).to_le_bytes());
     out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn records_have_the_numbers_that_were_written() {
-        let mut bytes = Vec::new();
-        to_record(70_000, &[1.5, f32::NAN, -3.25e7], &mut bytes);
-        assert_eq!(bytes.len(), record_bytes(3));
-        let message = from_record(&bytes, 3).unwrap();
-        assert_eq!((message.frame, message.q), (Some(70_000), Some(vec![Some(1.5), None, Some(-3.25e7)])));
-        let error = from_record(&bytes[..12], 3).unwrap_err().to_string();
-        assert!(error.contains("12 bytes; expected 16"), "{error}");
-    }
-
-    #[test]
-    fn lines_are_frames_or_names_and_nothing_else() {
-        let frame = from_json(b"{\"frame\": 3, \"q\": [0.5, null]}").unwrap();
-        assert_eq!((frame.frame, frame.q), (Some(3), Some(vec![Some(0.5), None])));
-        let names = from_json(b"{\"coordinates\": [\"hip\"], \"angles\": \"deg\"}").unwrap();
-        assert_eq!((names.coordinates, names.angles), (Some(vec!["hip".to_owned()]), Some(AngleUnit::Deg)));
-        assert_eq!(from_json(b"\xef\xbb\xbf{\"frame\": 3}").unwrap().frame, Some(3));
-        for wrong in ["", "[]", "{\"frame\": -1}", "{\"q\": [\"x\"]}", "{\"values\": []}", "{\"angles\": \"turns\"}"] {
-            assert!(from_json(wrong.as_bytes()).is_err(), "{wrong}");
-        }
-    }
 }

@@ -6,12 +6,12 @@
 
 mod conversation;
 mod coordinates;
-mod formats;
+pub(crate) mod formats;
 mod links;
 mod live_view;
 mod markers;
-mod numbering;
-mod page_server;
+pub(crate) mod numbering;
+pub(crate) mod page_server;
 
 use crate::args::{Endpoint, StreamArgs};
 use crate::{Completion, files, printer};

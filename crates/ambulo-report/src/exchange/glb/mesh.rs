@@ -12,14 +12,19 @@ const RINGS: usize = 4;
 
 /// A surface; triangles are anticlockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Triangles {
-    pub(super) points: Vec<[f64; 3]>,
-    pub(super) normals: Vec<[f64; 3]>,
-    pub(super) corners: Vec<[u32; 3]>,
+pub struct Triangles {
+    /// Corners of triangles [m].
+    pub points: Vec<[f64; 3]>,
+    /// Outward unit vectors, one per point.
+    pub normals: Vec<[f64; 3]>,
+    /// Indices in `points`.
+    pub corners: Vec<[u32; 3]>,
 }
 
 impl Triangles {
-    pub(super) fn of_shape(shape: &ViewShape) -> Triangles {
+    /// The surface of a shape.
+    #[must_use]
+    pub fn of_shape(shape: &ViewShape) -> Triangles {
         match shape {
             ViewShape::Capsule { from, to, radius } => capsule(Vec3::from(*from), Vec3::from(*to), *radius),
             ViewShape::Box { center, half, turn } => {

@@ -13,9 +13,7 @@ mod arrow;
 mod buffer;
 mod container;
 mod material;
-mod mesh;
-#[cfg(test)]
-mod tests;
+pub(crate) mod mesh;
 
 use crate::stage::{BodyPath, Stage, StageBody, StagePlate};
 use animation::Animation;
@@ -25,7 +23,7 @@ use mesh::Triangles;
 use serde_json::{Value, json};
 
 /// Length of an arrow for its force [m/N].
-pub(super) const METRES_PER_NEWTON: f64 = 1e-3;
+pub const METRES_PER_NEWTON: f64 = 1e-3;
 
 /// Builds the file.
 #[derive(Default)]
@@ -42,7 +40,7 @@ struct GlbBuilder {
 ///
 /// # Errors
 /// Data that JSON cannot store.
-pub(super) fn glb(stage: &Stage, name: &str) -> Result<Vec<u8>, serde_json::Error> {
+pub fn glb(stage: &Stage, name: &str) -> Result<Vec<u8>, serde_json::Error> {
     let mut builder = GlbBuilder::default();
     let times: Vec<f64> = (0..stage.grid.frames).map(|frame| stage.grid.step_s * frame as f64).collect();
     builder.animation.time(&times, &mut builder.buffer);

@@ -19,8 +19,10 @@ const ASYMMETRIC: f64 = 10.0;
 
 /// How a value is computed from the curve of a cycle.
 #[derive(Clone, Copy)]
-enum Read {
+pub enum Read {
+    /// Maximum over a part.
     Largest(Part),
+    /// Minimum over a part.
     Smallest(Part),
     /// Maximum minus minimum over the whole cycle.
     Range,
@@ -30,12 +32,18 @@ enum Read {
 
 /// A part of the cycle.
 #[derive(Clone, Copy)]
-enum Part {
+pub enum Part {
+    /// From foot strike to the next one.
     Whole,
+    /// Until foot off.
     Stance,
+    /// First half of stance.
     EarlyStance,
+    /// Second half of stance.
     LateStance,
+    /// Second and third quarter of stance.
     MiddleOfStance,
+    /// From foot off.
     Swing,
 }
 
@@ -169,7 +177,8 @@ fn foot_off(results: &Results, curve: &ShownCurve) -> Option<f64> {
 
 impl Read {
     /// The value of a cycle; `None` if it needs a foot off that was not detected.
-    fn off(self, values: &[f64], foot_off: Option<f64>) -> Option<f64> {
+    #[must_use]
+    pub fn off(self, values: &[f64], foot_off: Option<f64>) -> Option<f64> {
         let of = |part: Part| Some(values.get(part.samples(values.len(), foot_off)?)?.iter().copied());
         let largest = |part| Some(of(part)?.fold(f64::NEG_INFINITY, f64::max));
         let smallest = |part| Some(of(part)?.fold(f64::INFINITY, f64::min));
@@ -199,24 +208,5 @@ impl Part {
             LateStance => stance(0.5, 1.0),
             Swing => Some(at(foot_off?)..count),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_read_off_their_part_of_the_cycle() {
-        let curve: Vec<f64> = (0..101).map(f64::from).collect();
-        let parts =
-            [Largest(Stance), Smallest(Swing), Largest(EarlyStance), Smallest(LateStance), Smallest(MiddleOfStance)];
-        let read = |read: Read| read.off(&curve, Some(60.0)).unwrap();
-        for (part, expected) in
-            parts.into_iter().chain([Range, AtStrike]).zip([60.0, 60.0, 30.0, 30.0, 15.0, 100.0, 0.0])
-        {
-            assert!((read(part) - expected).abs() < 1e-12, "{} instead of {expected}", read(part));
-        }
-        assert_eq!(Largest(Stance).off(&curve, None), None, "no foot off, no stance");
     }
 }

@@ -67,18 +67,19 @@ fn asymmetry(results: &Results) -> Option<Fact> {
 }
 
 /// How far the mean curve of a side is from normal.
-struct Deviation<'a> {
+pub struct Deviation<'a> {
     quantity: &'a ClinicalQuantity,
-    side: Side,
+    /// Whose side.
+    pub side: Side,
     /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy
     /// people. The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
-    in_sd: f64,
+    pub in_sd: f64,
     /// Where it is farthest [% of the cycle].
-    at_percent: usize,
+    pub at_percent: usize,
     /// The value there.
-    value: f64,
+    pub value: f64,
     /// The normal mean there.
-    normal: f64,
+    pub normal: f64,
     /// Source of the normative data.
     citation: String,
 }
@@ -94,7 +95,8 @@ impl Deviation<'_> {
         Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.in_sd.total_cmp(&b.in_sd))
     }
 
-    fn between<'a>(
+    /// From the mean curve of the side; `None` if it is too short.
+    pub fn between<'a>(
         quantity: &'a ClinicalQuantity,
         side: Side,
         mean: &[f64],
@@ -117,7 +119,9 @@ impl Deviation<'_> {
         })
     }
 
-    fn sentence(&self) -> String {
+    /// Quantity, side, size and place of the difference.
+    #[must_use]
+    pub fn sentence(&self) -> String {
         let Deviation { quantity, side, in_sd, at_percent, value, normal, .. } = self;
         let (title, unit) = (quantity.title, quantity.unit);
         let digits = if unit == "deg" { 0 } else { 2 };
@@ -139,29 +143,5 @@ fn norm(size: &BodySize, deviations: &[Deviation<'_>]) -> String {
                 largest.citation
             )
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::clinical::{ClinicalNames, clinical_quantities};
-    use ambulo_results::Convention;
-
-    #[test]
-    fn a_curve_two_deviations_above_normal_is_two_deviations_from_normal_and_the_normal_curve_none() {
-        let quantities = clinical_quantities(&ClinicalNames::without_model(), |_| true);
-        let hip = quantities.iter().find(|quantity| quantity.id == "hip_flexion_angle").unwrap();
-        let normal = band(hip.id, 0.4, Convention::Clinical).unwrap();
-        let shifted =
-            |by: f64| -> Vec<f64> { (0..CYCLE_SAMPLES).map(|k| normal.mean[k / 2] + by * normal.sd[k / 2]).collect() };
-        let deviation = |by: f64| Deviation::between(hip, Side::Left, &shifted(by), &normal).unwrap();
-        assert!((deviation(2.0).in_sd - 2.0).abs() < 1e-12 && deviation(0.0).in_sd < 1e-12);
-        let mut stiff = shifted(0.0);
-        stiff[72] -= 20.0;
-        let found = Deviation::between(hip, Side::Left, &stiff, &normal).unwrap();
-        assert_eq!((found.at_percent, found.side), (72, Side::Left));
-        assert!((found.normal - found.value - 20.0).abs() < 1e-12);
-        assert!(found.sentence().contains("left: ") && found.sentence().contains("most at 72 %"));
     }
 }

@@ -32,28 +32,3 @@ fn sort_states(machine: &mut PageMachine) {
     }
     machine.states = sorted;
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_state_that_comes_back_keeps_its_place() {
-        let period = |machine: &str, state: &str, time_s: [f64; 2]| StatePeriod {
-            machine: machine.to_owned(),
-            state: state.to_owned(),
-            time_s,
-        };
-        let leg = "left leg";
-        let made = machines(&[
-            period(leg, "swing", [0.0, 0.2]),
-            period(leg, "stance", [0.2, 0.8]),
-            period(leg, "swing", [0.8, 1.0]),
-            period("arm", "rest", [0.0, 1.0]),
-        ]);
-        assert_eq!(made.len(), 2);
-        assert_eq!(made[0].states, ["stance", "swing"]);
-        assert_eq!(made[0].periods.iter().map(|period| period.state).collect::<Vec<_>>(), [1, 0, 1]);
-        assert_eq!(made[1].periods, [PagePeriod { state: 0, from_s: 0.0, to_s: 1.0 }]);
-    }
-}

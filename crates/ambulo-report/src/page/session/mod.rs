@@ -3,17 +3,17 @@
 //! `results` reads the files of a recording or walk; every other module makes one part of the page from them. `scene`
 //! does the same for simulated scenes.
 
-mod cells;
+pub(crate) mod cells;
 mod curves;
 mod cycles;
-mod extracted;
-mod feasibility;
-mod glance;
+pub(crate) mod extracted;
+pub(crate) mod feasibility;
+pub(crate) mod glance;
 mod groups;
 mod header;
 mod machines;
 mod missing;
-mod pace;
+pub(crate) mod pace;
 mod peaks;
 mod quality;
 mod results;
@@ -22,7 +22,7 @@ mod sides;
 mod size;
 mod still;
 mod time_distance;
-mod words;
+pub(crate) mod words;
 
 use super::block::Block;
 use super::contract::{DataQuality, PageMachine, PageQuality, Session};

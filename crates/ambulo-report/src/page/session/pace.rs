@@ -49,7 +49,8 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
 }
 
 /// Mean speed [m/s] over one step of the first pace around each frame; over what there is of it at the ends.
-fn mean_speed(place: &[f64], step_s: f64, cycle_s: f64) -> Vec<f64> {
+#[must_use]
+pub fn mean_speed(place: &[f64], step_s: f64, cycle_s: f64) -> Vec<f64> {
     let half = (0.25 * cycle_s / step_s).round().max(1.0) as usize;
     let last = place.len().saturating_sub(1);
     let around = |frame: usize| (frame.saturating_sub(half), (frame + half).min(last));
@@ -58,7 +59,8 @@ fn mean_speed(place: &[f64], step_s: f64, cycle_s: f64) -> Vec<f64> {
 }
 
 /// The speed that the changes ask for: straight lines from the pace before to the pace after each change.
-fn asked(first: f64, changes: &[PaceChangeSummary], times: &[f64]) -> Vec<f64> {
+#[must_use]
+pub fn asked(first: f64, changes: &[PaceChangeSummary], times: &[f64]) -> Vec<f64> {
     let at = |time_s: f64| {
         changes.iter().fold(first, |speed, change| {
             let share = ((time_s - change.start_s) / change.duration_s).clamp(0.0, 1.0);
@@ -66,29 +68,4 @@ fn asked(first: f64, changes: &[PaceChangeSummary], times: &[f64]) -> Vec<f64> {
         })
     };
     times.iter().map(|time_s| at(*time_s)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_constant_speed_is_found_everywhere() {
-        let place: Vec<f64> = (0..200).map(|frame| 0.012 * f64::from(frame)).collect();
-        assert!(mean_speed(&place, 0.01, 1.1).iter().all(|speed| (speed - 1.2).abs() < 1e-12));
-    }
-
-    #[test]
-    fn what_is_asked_goes_from_pace_to_pace() {
-        let change = |start_s: f64, speed_m_s: f64| PaceChangeSummary {
-            start_s,
-            duration_s: 2.0,
-            speed_m_s,
-            step_length_m: 0.7,
-            cadence_steps_min: 110.0,
-        };
-        let speeds = asked(1.2, &[change(1.0, 1.6), change(5.0, 0.0)], &[0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0]);
-        let expected = [1.2, 1.2, 1.4, 1.6, 1.6, 0.8, 0.0];
-        assert!(speeds.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{speeds:?}");
-    }
 }

@@ -9,6 +9,7 @@ use crate::html::{Document, code, escaped, html_table};
 use crate::style::style;
 use ambulo::model::Side;
 use ambulo::study::validation::Section;
+use ambulo_results::SESSION_PAGE;
 use figures::{Figures, Part, color_of};
 use std::fmt::Write;
 
@@ -21,7 +22,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src dat
 /// # Errors
 /// A style that cannot be read.
 pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
-    let style = style().map_err(|e| FigureError { name: "session.html", reason: e.to_string() })?;
+    let style = style().map_err(|e| FigureError { name: SESSION_PAGE, reason: e.to_string() })?;
     let figures = Figures { compared, style };
     let summary = &compared.session.summary;
     let title = match &summary.person {

@@ -15,8 +15,7 @@ mod state_trace;
 mod walking;
 
 #[doc(hidden)]
-pub use condition::Condition;
-pub use condition::{Comparison, ConditionError, FootEvent};
+pub use condition::{Comparison, Condition, ConditionError, FootEvent};
 pub use definition::Span;
 #[doc(hidden)]
 pub use definition::{ChildOutputs, Machine, MachineInputs, Sensed, State, Transition};
@@ -26,7 +25,7 @@ pub(super) use machine_file::read_machines;
 pub use running_machine::RunningMachine;
 pub use settings::{Activity, Driven, MachineSettings, PASSAGE_S};
 pub use state_table::{ChangeTable, StateRow, state_rows, state_table};
+pub use state_trace::{StateChange, StatePeriod};
 #[doc(hidden)]
-pub use state_trace::StateWatch;
-pub use state_trace::{StateChange, StatePeriod, StateTrace};
+pub use state_trace::{StateTrace, StateWatch};
 pub use walking::{WalkMachine, planned, repeats, walking_machine};

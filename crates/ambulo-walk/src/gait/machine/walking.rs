@@ -21,7 +21,7 @@ use super::definition::{ChildOutputs, Machine, MachineInputs, Sensed, Span, Stat
 use super::running_machine::RunningMachine;
 use super::settings::Driven;
 use crate::findings::Findings;
-use crate::gait::arms::ArmCurves;
+use crate::gait::arms;
 use crate::gait::cyclic_curve::{CyclicCurve, SteadyCurve};
 use crate::gait::error::GaitError;
 use crate::gait::jet::Jet;
@@ -202,7 +202,7 @@ fn lean(walk: &Arc<Walk>) -> Machine {
 
 fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
     let speed = walk.curve_speed(&walk.first_clock());
-    let angle = |phase: f64| ArmCurves::shoulder(Jet::constant(phase), speed).value;
+    let angle = |phase: f64| arms::shoulder(Jet::constant(phase), speed).value;
     let state = |name: &str, window: [f64; 2]| {
         let span = Span { window, bounds: Some(window.map(angle)) };
         State { span: Some(span), ..State::named(name) }
@@ -216,7 +216,7 @@ fn shoulder(walk: &Arc<Walk>, side: Side) -> Machine {
     };
     let walk = Arc::clone(walk);
     Machine::new(WalkPart::Shoulder(side).name(), states, move |_, inputs, _| {
-        let swing = ArmCurves::shoulder(inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
+        let swing = arms::shoulder(inputs.clock.phase_of(side), walk.curve_speed(inputs.clock));
         walk.arm_angle(WalkPart::Shoulder(side), swing, inputs.clock)
     })
     .with_transitions([transition(0, "the other foot's contact"), transition(1, "contact")])
@@ -227,7 +227,7 @@ fn elbow(walk: &Arc<Walk>, side: Side) -> Machine {
         let walk = Arc::clone(walk);
         move |curve: Jet, clock: &Clock| walk.arm_angle(WalkPart::Elbow(side), curve, clock)
     };
-    curve_machine(walk, WalkPart::Elbow(side), walk.arms().elbow(), angle)
+    curve_machine(walk, WalkPart::Elbow(side), walk.elbow(), angle)
 }
 
 /// A walk that is driven by its state machine.

@@ -43,7 +43,10 @@ impl<'a> FrameReader<'a> {
             forces,
             powers: JointPowers::new(model, motion.trajectory, &forces.generalized),
             roots: Roots::of(model),
-            ground_velocity: over.map(|o| o.ground).or(motion.stances.map(|s| s.floor_velocity)).unwrap_or_default(),
+            ground_velocity: over
+                .map(|(ground, _)| ground)
+                .or(motion.stances.map(|s| s.floor_velocity))
+                .unwrap_or_default(),
             ground_height: FloorHeights::of(motion, &feet.as_ref().map(Option::as_deref)),
             walking: motion.activity.keeps_a_foot_down(),
             feet,

@@ -8,23 +8,15 @@ use crate::spatial::Vec3;
 /// A foot that carries more than this share of body weight moves with the ground.
 const STANDING_SHARE: f64 = 0.5;
 
-/// Velocity of the ground, and walking speed over it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::analysis) struct OverGround {
-    /// Median velocity of the loaded feet [m/s].
-    pub(in crate::analysis) ground: Vec3,
-    /// Mean horizontal speed of the body's mass centre relative to the ground [m/s].
-    pub(in crate::analysis) speed: f64,
-}
-
-/// Estimates the ground velocity from the loaded feet at their centres of pressure; on a treadmill they move back with
-/// the belt. `None` if no foot ever carries half the weight.
+/// Estimates the ground velocity [m/s] from the loaded feet at their centres of pressure, as their median; on a
+/// treadmill they move back with the belt. With it comes the mean horizontal speed of the body's mass centre over the
+/// ground [m/s]. `None` if no foot ever carries half the weight.
 pub(in crate::analysis) fn over_ground(
     model: &Model,
     trajectory: &Trajectory,
     ground: &GroundForces,
     up: Vec3,
-) -> Option<OverGround> {
+) -> Option<(Vec3, f64)> {
     let weight = model.mass() * model.gravity().norm();
     let (mut center, mut frames, mut feet) = (Vec3::zeros(), 0.0, Vec::new());
     each_body_motion(model, trajectory, |frame, bodies| {
@@ -48,5 +40,5 @@ pub(in crate::analysis) fn over_ground(
         median[k] = along[along.len() / 2];
     }
     let relative = center / frames - median;
-    Some(OverGround { ground: median, speed: (relative - up * relative.dot(&up)).norm() })
+    Some((median, (relative - up * relative.dot(&up)).norm()))
 }

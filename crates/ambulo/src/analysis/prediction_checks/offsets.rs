@@ -10,16 +10,6 @@ use super::low_pass::LowPassed;
 use super::record::Record;
 use crate::analysis::feasibility::Check;
 
-/// Mean offsets in single support [m].
-#[derive(Debug, Clone, Copy)]
-struct MeanOffsets {
-    /// To the right of the middle of the feet.
-    right: f64,
-    /// Ahead of the balls or (negative) behind the heels; zero between them.
-    forward: f64,
-    time_s: [f64; 2],
-}
-
 pub(super) fn check(
     evidence: &CheckedPrediction<'_>,
     record: &Record,
@@ -29,12 +19,11 @@ pub(super) fn check(
     let margin = evidence.thresholds.sole_margin_m;
     let sideways = Criterion { name: "sideways_offset", allowed: [-margin, margin], unit: "m" };
     let forward = Criterion { name: "forward_offset", ..sideways };
-    let Some(offsets) = offsets(record, low_passed) else {
+    let Some(([right, ahead], time_s)) = offsets(record, low_passed) else {
         return [sideways, forward]
             .into_iter()
             .for_each(|criterion| judgement.skip(criterion, "there is no single support of each foot"));
     };
-    let time_s = offsets.time_s;
     let mut add = |criterion: Criterion, value: f64, directions: [&str; 2]| {
         let found = TimedValue { value, time_s };
         if judgement.take(criterion, found) {
@@ -49,19 +38,18 @@ pub(super) fn check(
         );
         judgement.report_infeasible(Check::CenterOfPressure, criterion, found, message);
     };
-    add(forward, offsets.forward, ["behind the heels", "ahead of the balls of the feet"]);
+    add(forward, ahead, ["behind the heels", "ahead of the balls of the feet"]);
     match record.plane_normal {
-        None => add(
-            sideways,
-            offsets.right,
-            ["to the left of the middle of the feet", "to the right of the middle of the feet"],
-        ),
+        None => {
+            add(sideways, right, ["to the left of the middle of the feet", "to the right of the middle of the feet"])
+        }
         Some(_) => judgement.skip(sideways, "the figure moves in a plane"),
     }
 }
 
-/// `None` unless there is single support of each foot.
-fn offsets(record: &Record, low_passed: &LowPassed) -> Option<MeanOffsets> {
+/// Mean offsets in single support [m], and its first and last time [s]: to the right of the middle of the feet; ahead
+/// of the balls or (negative) behind the heels, zero between them. `None` unless there is single support of each foot.
+fn offsets(record: &Record, low_passed: &LowPassed) -> Option<([f64; 2], [f64; 2])> {
     let mut feet: [Vec<[f64; 3]>; 2] = [Vec::new(), Vec::new()];
     for instant in &low_passed.instants {
         let (Some(foot), Some(center)) = (instant.single_support_foot, instant.center(record)) else { continue };
@@ -76,5 +64,5 @@ fn offsets(record: &Record, low_passed: &LowPassed) -> Option<MeanOffsets> {
     let [right, ahead_of_rear, ahead_of_ball] = [0, 1, 2].map(|k| 0.5 * (mean(&feet[0], k) + mean(&feet[1], k)));
     let forward = ahead_of_ball.max(0.0) + ahead_of_rear.min(0.0);
     let (first, last) = (low_passed.instants.first()?, low_passed.instants.last()?);
-    right.is_finite().then_some(MeanOffsets { right, forward, time_s: [first.time_s, last.time_s] })
+    right.is_finite().then_some(([right, forward], [first.time_s, last.time_s]))
 }

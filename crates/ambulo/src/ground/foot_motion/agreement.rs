@@ -18,13 +18,13 @@ struct Candidate {
 ///
 /// Strikes and offs of a foot alternate: of two events of one kind in a row the one that more methods
 /// detected is kept, otherwise the first.
-pub(super) fn agreed(by_method: &[(EventMethod, Vec<Event>)]) -> Vec<Event> {
+pub(super) fn agreed(by_method: &[(&str, Vec<Event>)]) -> Vec<Event> {
     let needed = by_method.len().min(2);
     let mut out = Vec::new();
     for side in Side::BOTH {
         let mut candidates: Vec<Candidate> = Vec::new();
         for kind in [EventKind::Strike, EventKind::Off] {
-            let of = |(m, list): (usize, &(EventMethod, Vec<Event>))| {
+            let of = |(m, list): (usize, &(&str, Vec<Event>))| {
                 let same = list.1.iter().filter(|e| e.side == side && e.kind == kind);
                 same.map(|e| (e.time_s, m)).collect::<Vec<_>>()
             };

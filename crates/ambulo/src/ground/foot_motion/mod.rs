@@ -2,10 +2,10 @@
 //!
 //! | method | strike | off | source |
 //! |---|---|---|---|
-//! | [`EventMethod::PelvisDistance`] | heel furthest ahead of the pelvis | toe furthest behind it | Zeni, Richards, Higginson 2008 |
-//! | [`EventMethod::FootVelocity`] | fastest descent of the foot's middle while it is low | fastest rise | O'Connor, Thorpe, O'Malley, Vaughan 2007 |
-//! | [`EventMethod::FootSpeed`] | heel slower than 0.78 of walking speed | toe faster than 0.66 of it | Ghoussayni 2004, thresholds of Bruening, Ridge 2014 |
-//! | [`EventMethod::FootAcceleration`] | highest upward acceleration of the heel | highest forward acceleration of the toe | Hreljac, Marshall 2000 |
+//! | distance from the pelvis | heel furthest ahead of the pelvis | toe furthest behind it | Zeni, Richards, Higginson 2008 |
+//! | vertical velocity | fastest descent of the foot's middle while it is low | fastest rise | O'Connor, Thorpe, O'Malley, Vaughan 2007 |
+//! | speed along the floor | heel slower than 0.78 of walking speed | toe faster than 0.66 of it | Ghoussayni 2004, thresholds of Bruening, Ridge 2014 |
+//! | acceleration | highest upward acceleration of the heel | highest forward acceleration of the toe | Hreljac, Marshall 2000 |
 //!
 //! Errors relative to force plates in five walks of four laboratories (tests/laboratory_files.rs): single methods 4 to
 //! 63 ms, each with its own bias (strikes early by Zeni, late by Hreljac); their median 1 to 30 ms. In running the offs
@@ -36,7 +36,7 @@ const SLOWEST_WALK_M_S: f64 = 0.15;
 
 /// A method that detects foot strikes and foot offs in marker trajectories.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EventMethod {
+pub(crate) enum EventMethod {
     /// Distance of heel and toe from the pelvis.
     PelvisDistance,
     /// Vertical velocity of the middle of the foot.
@@ -49,12 +49,11 @@ pub enum EventMethod {
 
 impl EventMethod {
     /// All of them.
-    pub const ALL: [EventMethod; 4] =
+    pub(crate) const ALL: [EventMethod; 4] =
         [EventMethod::PelvisDistance, EventMethod::FootVelocity, EventMethod::FootSpeed, EventMethod::FootAcceleration];
 
     /// Name in tables, with its source.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             EventMethod::PelvisDistance => "heel and toe relative to pelvis (Zeni 2008)",
             EventMethod::FootVelocity => "vertical velocity of the foot (O'Connor 2007)",
@@ -67,8 +66,8 @@ impl EventMethod {
 /// Events and contacts of both feet from markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootMotion {
-    /// Events by each method whose markers were recorded.
-    pub by_method: Vec<(EventMethod, Vec<Event>)>,
+    /// Each method whose markers were recorded, with its source, and its events.
+    pub by_method: Vec<(&'static str, Vec<Event>)>,
     /// The median over the methods; events that only one of several methods detected are left out.
     pub events: Vec<Event>,
     /// Feet without a heel or toe marker: their events cannot be detected, and the direction of the foot is not known.
@@ -119,7 +118,7 @@ pub(crate) fn foot_motion_of_landmarks(
         }
         if !events.is_empty() {
             events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
-            by_method.push((method, events));
+            by_method.push((method.name(), events));
         }
     }
     let bare = feet.iter().filter(|f| f.heel.is_none() || f.toe.is_none());

@@ -131,32 +131,25 @@ pub fn exclusions(trials: &[TrialFacts], cycles: &[CycleFacts]) -> Vec<Option<Ex
     };
     let first: Vec<Option<Exclusion>> = cycles.iter().map(|cycle| trials.get(cycle.trial).and_then(of_trial)).collect();
     let kept = || cycles.iter().zip(&first).filter(|(_, excluded)| excluded.is_none()).map(|(cycle, _)| cycle);
-    let usual = Usual {
-        duration_s: median(kept().map(|cycle| cycle.duration_s)),
-        stance: median(kept().filter_map(|cycle| cycle.stance)),
-    };
-    cycles.iter().zip(&first).map(|(cycle, first)| first.clone().or_else(|| usual.contradicted_by(cycle))).collect()
+    let usual_s = median(kept().map(|cycle| cycle.duration_s));
+    let usual_stance = median(kept().filter_map(|cycle| cycle.stance));
+    cycles
+        .iter()
+        .zip(&first)
+        .map(|(cycle, first)| first.clone().or_else(|| contradiction(cycle, usual_s?, usual_stance)))
+        .collect()
 }
 
-/// Medians of a session.
-struct Usual {
-    duration_s: Option<f64>,
-    stance: Option<f64>,
-}
-
-impl Usual {
-    /// Why a foot strike of the cycle is missing or wrong.
-    fn contradicted_by(&self, cycle: &CycleFacts) -> Option<Exclusion> {
-        let usual_s = self.duration_s?;
-        let found_s = cycle.duration_s;
-        let differs = |factor: f64| !(1.0 / factor..=factor).contains(&(found_s / usual_s));
-        if differs(MISSED) {
-            return Some(Exclusion::Duration { found_s, usual_s });
-        }
-        let stance = [cycle.stance?, self.stance?];
-        let is_shifted = differs(SHIFTED.0) && (stance[0] - stance[1]).abs() > SHIFTED.1;
-        is_shifted.then_some(Exclusion::Strike { duration_s: [found_s, usual_s], stance })
+/// Why a foot strike of the cycle is missing or wrong, by the median duration [s] and share of stance of the session.
+fn contradiction(cycle: &CycleFacts, usual_s: f64, usual_stance: Option<f64>) -> Option<Exclusion> {
+    let found_s = cycle.duration_s;
+    let differs = |factor: f64| !(1.0 / factor..=factor).contains(&(found_s / usual_s));
+    if differs(MISSED) {
+        return Some(Exclusion::Duration { found_s, usual_s });
     }
+    let stance = [cycle.stance?, usual_stance?];
+    let is_shifted = differs(SHIFTED.0) && (stance[0] - stance[1]).abs() > SHIFTED.1;
+    is_shifted.then_some(Exclusion::Strike { duration_s: [found_s, usual_s], stance })
 }
 
 /// The activity of most trials whose data are not bad; of several, the first of the list.

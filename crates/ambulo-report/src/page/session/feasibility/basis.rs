@@ -56,17 +56,7 @@ impl Basis {
 }
 
 /// Rounds to whole per cent; only a share of exactly all is written as 100 %, and no share as 0 %.
-fn percent(share: f64) -> String {
+pub fn percent(share: f64) -> String {
     let percent = if share < 1.0 { (100.0 * share).clamp(1.0, 99.0) } else { 100.0 };
     format!("{percent:.0} %")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn less_than_all_is_never_rounded_to_it() {
-        assert_eq!([0.001, 0.444, 0.999, 1.0].map(percent), ["1 %", "44 %", "99 %", "100 %"]);
-    }
 }

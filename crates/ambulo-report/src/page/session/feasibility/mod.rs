@@ -1,6 +1,6 @@
 //! The verdict: whether a person could do this motion, and which limits it exceeds, when and where.
 
-mod basis;
+pub(crate) mod basis;
 
 pub(super) use basis::Basis;
 

@@ -32,19 +32,19 @@ pub enum Baseline {
 
 /// Input of the rules.
 #[derive(Clone, Copy)]
-pub struct BaselineInput<'a> {
+pub(super) struct BaselineInput<'a> {
     /// The body.
-    pub model: &'a Model,
+    model: &'a Model,
     /// Its motion.
-    pub trajectory: &'a Trajectory,
+    trajectory: &'a Trajectory,
     /// The soles of both feet.
-    pub soles: &'a BySide<Sole>,
+    soles: &'a BySide<Sole>,
     /// The stances of both feet.
-    pub footfalls: &'a Footfalls,
+    footfalls: &'a Footfalls,
     /// Total force [N] and moment about the world's origin [N.m] that the motion requires, one entry per frame.
-    pub total: &'a [Wrench],
+    total: &'a [Wrench],
     /// The walking direction during a time span [s], a unit vector.
-    pub forward: &'a dyn Fn([f64; 2]) -> Vec3,
+    forward: &'a dyn Fn([f64; 2]) -> Vec3,
 }
 
 /// Force on a foot and its point of application, one entry per frame.
@@ -87,8 +87,7 @@ impl Baseline {
     }
 
     /// Ground forces on both feet by this rule.
-    #[must_use]
-    pub fn ground(self, input: &BaselineInput<'_>) -> GroundForces {
+    fn ground(self, input: &BaselineInput<'_>) -> GroundForces {
         let places = places(input);
         let feet = match self {
             Baseline::FootHeight => foot_height::forces(input, &places),

@@ -1,12 +1,12 @@
 //! Stages of folders made in memory.
 
-use super::{Stage, StageForce};
-use crate::page::ViewShape;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Model, to_osim};
 use ambulo::spatial::{Pose, Vec3};
 use ambulo_formats::table::Table;
+use ambulo_report::internals::{Stage, StageForce};
+use ambulo_report::page::ViewShape;
 use ambulo_results::Folder;
 use nalgebra::Rotation3;
 use serde_json::json;

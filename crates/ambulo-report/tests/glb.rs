@@ -1,11 +1,12 @@
 //! Reads the written file back.
 
-use super::{METRES_PER_NEWTON, glb};
-use crate::page::ViewShape;
-use crate::stage::{BodyPath, ForceRole, Stage, StageBody, StageForce, StagePlate};
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
+use ambulo_report::internals::{
+    BodyPath, ForceRole, METRES_PER_NEWTON, Stage, StageBody, StageForce, StagePlate, Triangles, glb,
+};
+use ambulo_report::page::ViewShape;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde_json::Value;
 
@@ -207,7 +208,7 @@ fn round_and_square_shapes_face_outwards() {
         (ViewShape::Box { center: [1.0, 0.0, 0.0], half: [0.1, 0.2, 0.3], turn: [0.0, 0.6, 0.0, 0.8] }, 0.048),
     ];
     for (shape, expected) in shapes {
-        let triangles = super::mesh::Triangles::of_shape(&shape);
+        let triangles = Triangles::of_shape(&shape);
         let at = |corner: u32| Vec3::from(triangles.points[corner as usize]);
         let sixth = |[a, b, c]: &[u32; 3]| at(*a).dot(&at(*b).cross(&at(*c))) / 6.0;
         let volume: f64 = triangles.corners.iter().map(sixth).sum();

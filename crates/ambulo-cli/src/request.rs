@@ -1,0 +1,363 @@
+//! Requests: a verb with its files and settings as values, and the same as JSON.
+//!
+//! The command line is parsed into these values; programs and the page in the browser state them in JSON
+//! (docs/REQUESTS.md). Names of fields are those of the types; a field that is left out has the default of its option.
+
+use crate::args::{
+    BatchArgs, DemoArgs, EventsArgs, Existing, Handling, OUT, Outputs, SessionArgs, SimulateArgs, SweepArgs,
+    TrialWords, ValidateArgs, WalkArgs, json,
+};
+use crate::caller::Caller;
+use crate::failure::Failure;
+use crate::{Completion, commands};
+use ambulo::job::Job;
+use ambulo_results::Convention;
+use anyhow::{Context, Result, anyhow};
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A verb with its files and settings.
+#[derive(Debug, Clone)]
+pub struct Request(pub(crate) Verb);
+
+/// The verbs that a request may have, each with its fields.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) enum Verb {
+    /// `ambulo forces`.
+    Forces(Box<ForcesRequest>),
+    /// `ambulo calibrate`.
+    Calibrate(Box<CalibrateRequest>),
+    /// `ambulo validate`.
+    Validate(Box<ValidateArgs>),
+    /// `ambulo batch`.
+    Batch(Box<BatchRequest>),
+    /// `ambulo session`.
+    Session(Box<SessionRequest>),
+    /// `ambulo walk`.
+    Walk(Box<WalkArgs>),
+    /// `ambulo sweep`.
+    Sweep(Box<SweepArgs>),
+    /// `ambulo demo`.
+    Demo(Box<DemoArgs>),
+    /// `ambulo simulate`.
+    Simulate(Box<SimulateArgs>),
+    /// `ambulo events`.
+    Events(Box<EventsArgs>),
+}
+
+/// The forces of a recording.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ForcesRequest {
+    /// Recording, person and settings.
+    pub job: Job,
+    /// How angles of pelvis and hips are measured.
+    pub convention: Convention,
+    /// Names of the outputs that are written; all if there are none.
+    #[serde(deserialize_with = "json::outputs_of_run")]
+    pub keep: Vec<String>,
+    /// Folder for the results.
+    pub output: PathBuf,
+}
+
+/// The calibration of a person, whose ground forces are predicted.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CalibrateRequest {
+    /// Trials of one person walking over force plates.
+    #[serde(deserialize_with = "json::sources")]
+    pub trials: Vec<PathBuf>,
+    /// Person and settings of every trial.
+    #[serde(default)]
+    pub job: Job,
+    /// File for the calibration.
+    #[serde(default = "CalibrateRequest::output")]
+    pub output: PathBuf,
+}
+
+/// The trials of a folder or a list as tables.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) struct BatchRequest {
+    /// Source, folder and tables.
+    own: BatchArgs,
+    /// Person and settings of every trial.
+    #[serde(default)]
+    job: Job,
+    /// How angles of pelvis and hips are measured.
+    #[serde(default)]
+    convention: Convention,
+}
+
+/// The trials of a visit.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) struct SessionRequest {
+    /// Recordings, folder and comparison.
+    own: SessionArgs,
+    /// Person and settings of every trial.
+    #[serde(default)]
+    job: Job,
+    /// How angles of pelvis and hips are measured.
+    #[serde(default)]
+    convention: Convention,
+}
+
+impl Default for ForcesRequest {
+    fn default() -> ForcesRequest {
+        let (job, convention, keep) = Default::default();
+        ForcesRequest { job, convention, keep, output: OUT.into() }
+    }
+}
+
+impl ForcesRequest {
+    /// The word for every trial of a `.b3d`.
+    const ALL_TRIALS: &'static str = "all";
+
+    /// Whether every trial of a `.b3d` is to be computed.
+    pub(crate) fn chooses_all_trials(&self) -> bool {
+        self.job.trial.as_deref() == Some(ForcesRequest::ALL_TRIALS)
+    }
+
+    /// What is written.
+    pub(crate) fn outputs(&self) -> Outputs {
+        Outputs { convention: self.convention, keep: self.keep.clone() }
+    }
+}
+
+impl CalibrateRequest {
+    /// The file for the calibration, if none is given.
+    pub(crate) const OUTPUT: &'static str = "person.toml";
+
+    /// The same for JSON.
+    fn output() -> PathBuf {
+        CalibrateRequest::OUTPUT.into()
+    }
+
+    /// The request for these trials.
+    #[must_use]
+    pub fn of(trials: Vec<PathBuf>, job: Job) -> CalibrateRequest {
+        CalibrateRequest { trials, job, output: CalibrateRequest::output() }
+    }
+}
+
+impl BatchRequest {
+    fn trials(&self) -> TrialWords {
+        TrialWords::of_job(self.job.clone(), Outputs { convention: self.convention, keep: Vec::new() })
+    }
+}
+
+impl SessionRequest {
+    fn trials(&self) -> TrialWords {
+        TrialWords::of_job(self.job.clone(), Outputs { convention: self.convention, keep: Vec::new() })
+    }
+}
+
+impl From<ForcesRequest> for Request {
+    fn from(request: ForcesRequest) -> Request {
+        Request(Verb::Forces(Box::new(request)))
+    }
+}
+
+impl From<CalibrateRequest> for Request {
+    fn from(request: CalibrateRequest) -> Request {
+        Request(Verb::Calibrate(Box::new(request)))
+    }
+}
+
+/// What a request computes.
+pub enum Answer {
+    /// Tables, summary and page.
+    Results(Box<commands::Results>),
+    /// The folder of the tables of a batch.
+    Folder(PathBuf),
+    /// The calibration of a person, in the form of its file.
+    Person(Vec<u8>),
+}
+
+impl Request {
+    /// Reads a request: an object with the verb as its only key, `{"walk": {"gait": {"speed": 1.2}}}`.
+    ///
+    /// # Errors
+    /// Text that is no JSON; an unknown verb or field, another type, a value out of range: the message names the field
+    /// and what is allowed.
+    pub fn from_json(text: &[u8]) -> Result<Request, Failure> {
+        Ok(Request::read(text)?)
+    }
+
+    /// As [`Request::from_json`], from a value.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_value(value: &Value) -> Result<Request, Failure> {
+        Ok(Request::of(value)?)
+    }
+
+    /// The same request, with this job of every trial of a batch or session.
+    #[must_use]
+    pub fn with_trials(mut self, of_all: Job, outputs: &Outputs) -> Request {
+        let (job, convention) = match &mut self.0 {
+            Verb::Batch(request) => (&mut request.job, &mut request.convention),
+            Verb::Session(request) => (&mut request.job, &mut request.convention),
+            _ => return self,
+        };
+        (*job, *convention) = (of_all, outputs.convention);
+        self
+    }
+
+    pub(crate) fn read(text: &[u8]) -> Result<Request> {
+        let mut reader = serde_json::Deserializer::from_slice(text);
+        let request = Request::of(&mut reader)?;
+        reader.end().context("expected one request")?;
+        Ok(request)
+    }
+
+    fn of<'de, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> Result<Request> {
+        serde_path_to_error::deserialize(from).map(Request).map_err(|error| {
+            let place = Some(error.path().to_string()).filter(|path| path != ".");
+            let place = place.map_or_else(String::new, |path| format!("`{path}`: "));
+            anyhow!("{place}{}. hint: docs/REQUESTS.md describes requests", error.inner())
+        })
+    }
+
+    /// Runs the request as the command does.
+    pub(crate) fn run(&self, how: Handling) -> Result<Completion> {
+        let request = self.handled(how);
+        match &request.0 {
+            Verb::Forces(request) => commands::forces::run(request, how),
+            Verb::Calibrate(request) => commands::calibrate::run(request, how),
+            Verb::Validate(args) => commands::validate::run(args),
+            Verb::Batch(request) => {
+                request.job.check()?;
+                commands::batch::compute(&request.own, &request.trials(), &Caller::default())
+            }
+            Verb::Session(request) => {
+                request.job.check()?;
+                commands::session::compute(&request.own, &request.trials(), &Caller::default())
+            }
+            Verb::Walk(args) => commands::walk::run(args),
+            Verb::Sweep(args) => commands::sweep::run(args),
+            Verb::Demo(args) => commands::demo::run(args),
+            Verb::Simulate(args) => commands::simulate::run(args),
+            Verb::Events(args) => commands::events::run(args),
+        }
+    }
+
+    /// Computes the request and returns its results. Only a batch and a session write files.
+    ///
+    /// # Errors
+    /// Those of the command; a computation that the caller stopped; a verb that only writes files.
+    pub fn compute(&self, existing: Existing, caller: &Caller) -> Result<Answer, Failure> {
+        let files = self.files();
+        let computed = self.handled(Handling::quiet(existing)).computed(caller);
+        let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+        computed.map_err(|error| Failure::from(error).in_one_of(names.iter().map(String::as_str)))
+    }
+
+    fn computed(&self, caller: &Caller) -> Result<Answer> {
+        let results = match &self.0 {
+            Verb::Forces(request) => {
+                request.job.check()?;
+                commands::forces::compute(&request.job, request.outputs(), caller)?.into()
+            }
+            Verb::Calibrate(request) => {
+                let person = commands::calibrate::compute(request, Handling::quiet(Existing::Kept).print, caller)?;
+                return Ok(Answer::Person(person.to_toml().into_bytes()));
+            }
+            Verb::Validate(args) => commands::validate::compute(args, caller)?.into(),
+            Verb::Batch(request) => {
+                request.job.check()?;
+                commands::batch::compute(&request.own, &request.trials(), caller)?;
+                return Ok(Answer::Folder(request.own.output.clone()));
+            }
+            Verb::Session(request) => {
+                request.job.check()?;
+                commands::session::compute(&request.own, &request.trials(), caller)?;
+                commands::Results::of_folder(&request.own.output)?
+            }
+            Verb::Walk(args) => commands::walk::compute(args, caller)?.into(),
+            Verb::Sweep(args) => commands::sweep::compute(args, caller)?.into(),
+            Verb::Simulate(args) => commands::simulate::compute(args, caller)?.into(),
+            Verb::Demo(_) | Verb::Events(_) => {
+                return Err(anyhow!("this verb only writes files; expected one that has results. hint: `ambulo run`"));
+            }
+        };
+        Ok(Answer::Results(Box::new(results)))
+    }
+
+    /// The same request, handled in another way.
+    fn handled(&self, how: Handling) -> Request {
+        let Handling { replace, check, print } = how;
+        let mut request = self.clone();
+        match &mut request.0 {
+            Verb::Forces(_) | Verb::Calibrate(_) => {}
+            Verb::Validate(args) => (args.replace, args.print) = (replace, print),
+            Verb::Batch(request) => (request.own.check, request.own.print) = (check, print),
+            Verb::Session(request) => (request.own.replace, request.own.print) = (replace, print),
+            Verb::Walk(args) => (args.replace, args.check, args.print) = (replace, check, print),
+            Verb::Sweep(args) => (args.replace, args.check, args.print) = (replace, check, print),
+            Verb::Demo(args) => (args.replace, args.check, args.print) = (replace, check, print),
+            Verb::Simulate(args) => (args.replace, args.check, args.print) = (replace, check, print),
+            Verb::Events(args) => (args.replace, args.print) = (replace, print),
+        }
+        request
+    }
+
+    /// Files and folders that an error may be about.
+    fn files(&self) -> Vec<PathBuf> {
+        let named: Vec<Option<&Path>> = match &self.0 {
+            Verb::Forces(request) => request.job.files().map(Some).collect(),
+            Verb::Calibrate(request) => {
+                request.trials.iter().map(PathBuf::as_path).chain(request.job.files()).map(Some).collect()
+            }
+            Verb::Validate(args) => vec![Some(&args.folder), args.markers.as_deref().map(Path::new)],
+            Verb::Batch(request) => vec![Some(&request.own.source), Some(&request.own.output)],
+            Verb::Session(request) => {
+                let own = &request.own;
+                let others = [Some(&own.output), own.compare.as_ref(), own.norm.as_ref()];
+                own.source.iter().map(Some).chain(others).map(|file| file.map(PathBuf::as_path)).collect()
+            }
+            Verb::Walk(args) => {
+                let others = [&args.conditions.device, &args.torques, &args.thresholds];
+                let gait = args.gait.gait.as_deref().map(Path::new);
+                others.into_iter().map(Option::as_deref).chain([gait]).collect()
+            }
+            Verb::Sweep(args) => vec![args.device.as_deref()],
+            Verb::Demo(_) => Vec::new(),
+            Verb::Simulate(args) => vec![Some(&args.scene), args.resume.as_deref()],
+            Verb::Events(args) => vec![Some(&args.input)],
+        };
+        named.into_iter().flatten().map(Path::to_path_buf).collect()
+    }
+}
+
+/// Fields of a request with values that are not allowed.
+#[derive(Debug)]
+pub(crate) struct WrongFields {
+    /// Names, as in the types of requests.
+    pub(crate) fields: &'static [&'static str],
+    message: String,
+}
+
+impl WrongFields {
+    /// An error: what was found, and what was expected.
+    pub(crate) fn new(fields: &'static [&'static str], message: impl fmt::Display) -> WrongFields {
+        WrongFields { fields, message: message.to_string() }
+    }
+}
+
+impl fmt::Display for WrongFields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.fields.join(", "), self.message)
+    }
+}
+
+impl std::error::Error for WrongFields {}
