@@ -3,9 +3,10 @@
 
 use super::claim::{ClaimKind, Former, Numbers, Statement, number, numbers};
 use super::convergence::JOINTS;
-use super::evidence::{GAITS, Scope};
+use super::evidence::Scope;
 use super::mode::Run;
 use super::muscles::GROUPS;
+use super::open_values::GAITS;
 use super::paper_human::HEIGHT;
 use super::steady::{STEADY_CYCLES, Steady};
 use ambulo_body::model::anatomy::Movement;
@@ -90,12 +91,14 @@ pub(super) const WARNING: Statement = Statement {
     id: "m2",
     kind: ClaimKind::Paper,
     paper: "torques above a threshold warn that a motion is not feasible",
-    criterion: "with the isometric strength of a man of this size, at the best angle of hip, knee and ankle, as the threshold, each of the four gaits of \
+    criterion: "with the isometric strength of a man of this size, at the best angle of hip, knee and ankle, as the \
+        threshold, each of the four gaits of \
         the paper's mode causes a warning, and none of the same gaits in the corrected mode does",
     former: Some(Former {
         kind: ClaimKind::Paper,
         criterion: "the largest torque of the standard gait is above 1.6 N.m/kg, the largest of people who walk",
-        reason: "a warning is of use only if it is not given to feasible walks too; ten times the threshold could not fail",
+        reason: "a warning is of use only if it is not given to feasible walks too; ten times the threshold could not \
+            fail",
         judge: |paper, _| number(paper, "largest_torque_nm_kg") > THRESHOLD_NM_KG,
     }),
     headline: "least_share_of_strength",
@@ -190,7 +193,8 @@ pub(super) const MUSCLES: Statement = Statement {
     judge: |paper, _| {
         let difference = number(paper, "largest_difference_of_extensor_share");
         let note = format!(
-            "found {difference:.2}. Work is concentric (energy is generated) or eccentric (negative: energy is absorbed), \
+            "found {difference:.2}. Work is concentric (energy is generated) or eccentric (negative: energy is \
+             absorbed), \
              per cycle and kg; the \
              peak is the instant of the largest torque of the group. These are net moments without impacts"
         );

@@ -3,8 +3,9 @@
 
 use super::claim::{Claim, Judgement};
 use super::error::ReproductionError;
-use super::evidence::{Evidence, GAITS, Scope};
+use super::evidence::{Evidence, Scope};
 use super::mode::TrialSettings;
+use super::open_values::GAITS;
 use super::open_values::{OpenKind, OpenValue, open_values};
 use super::setting::Setting;
 use super::statements::judgements;

@@ -15,13 +15,16 @@ pub(super) const SHOES: Statement = Statement {
     id: "i",
     kind: ClaimKind::Paper,
     paper: "soft shoes and a better starting motion are expected to reduce the bouncing and the extra flying phases",
-    criterion: "soft shoes lessen flight and landings per step of the paper's motion; the corrected motion lessens both in \
+    criterion: "soft shoes lessen flight and landings per step of the paper's motion; the corrected motion lessens \
+        both in \
         rigid shoes, and raises neither in soft shoes",
     former: Some(Former {
         kind: ClaimKind::Paper,
-        criterion: "soft shoes lessen flight, landings per step and the largest force, and the corrected motion lessens all \
+        criterion: "soft shoes lessen flight, landings per step and the largest force, and the corrected motion \
+            lessens all \
             three in both kinds of shoes",
-        reason: "the sentence speaks of bouncing and of flying phases, and not of the force; where soft shoes alone end \
+        reason: "the sentence speaks of bouncing and of flying phases, and not of the force; where soft shoes alone \
+            end \
             all flight, nothing can be less",
         judge: |paper, corrected| {
             let all = ["flight_percent", "landings_a_step", "largest_force_bw"];

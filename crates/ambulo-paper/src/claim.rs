@@ -141,6 +141,13 @@ pub(super) struct Former {
 }
 
 impl Statement {
+    /// Whether it counts, or counted by the former criterion.
+    #[must_use]
+    pub fn could_fail(&self) -> bool {
+        let former = self.former.as_ref().is_some_and(|former| former.kind == ClaimKind::Paper);
+        self.kind == ClaimKind::Paper || former
+    }
+
     /// The judgement by the former criterion, if it was changed.
     #[must_use]
     pub fn formerly(&self, paper: &Numbers, corrected: Option<&Numbers>) -> Option<bool> {

@@ -20,7 +20,8 @@ pub(super) const TORQUE: Statement = Statement {
     id: "a1",
     kind: ClaimKind::Paper,
     paper: "the torque curves converge to a solution as the sampling rate grows (shown at 30 Hz)",
-    criterion: "the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % of the range at the highest rate, as the \
+    criterion: "the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % of the range at the \
+        highest rate, as the \
         mean of hip, knee and ankle",
     former: None,
     headline: "order",
@@ -33,7 +34,8 @@ pub(super) const IMPULSE: Statement = Statement {
     id: "a2",
     kind: ClaimKind::Ours,
     paper: "the same for the integral of torques and impacts over time",
-    criterion: "the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % of the range at the highest rate, as the \
+    criterion: "the distance from a walk at 8 kHz decreases from rate to rate and is below 2 % of the range at the \
+        highest rate, as the \
         mean of hip, knee and ankle",
     former: None,
     headline: "order",
@@ -85,7 +87,8 @@ fn judge(paper: &Numbers, what: &str) -> (bool, String) {
     let pass = falls && errors[RATES_HZ.len() - 1] < 2.0;
     let (first, last) = (errors[0], errors[RATES_HZ.len() - 1]);
     let note = format!(
-        "the mean of hip, knee and ankle is {first:.1} % at 30 Hz and {last:.1} % at 1000 Hz, of order {:.2} in the time step",
+        "the mean of hip, knee and ankle is {first:.1} % at 30 Hz and {last:.1} % at 1000 Hz, of order {:.2} in the \
+         time step",
         number(paper, "order")
     );
     (pass, note)
@@ -135,7 +138,8 @@ pub(super) const PERIOD: Statement = Statement {
     id: "b",
     kind: ClaimKind::ByConstruction,
     paper: "all torques have a one second period; only slight differences between two periods",
-    criterion: "consecutive cycles after the start differ by less than 5 % of the range (root mean square, except for 20 ms around \
+    criterion: "consecutive cycles after the start differ by less than 5 % of the range (root mean square, except for \
+        20 ms around \
         impacts), and the period is one second",
     former: None,
     headline: "hip_cycle_to_cycle_percent",

@@ -2,6 +2,7 @@
 
 use super::error::ReproductionError;
 use super::mode::{Footwear, Mode, Run, TrialSettings};
+use super::open_values::GAITS;
 use super::paper_human::{MASS, denser, of_mass, paper_human};
 use ambulo_body::model::anthropometry::Human;
 use ambulo_walk::gait::Gait;
@@ -20,8 +21,6 @@ pub const CYCLES: usize = 10;
 pub const BRIEF_CYCLES: usize = 9;
 /// Cycles of the walks whose convergence is measured, and of their reference, in whose last cycle they are compared.
 const RATE_CYCLES: [usize; 2] = [8, 3];
-/// The paper's gaits.
-pub const GAITS: [&str; 4] = ["standard", "long", "short", "goose"];
 /// The paper's masses [kg].
 pub const MASSES: [f64; 3] = [60.0, 80.0, 100.0];
 /// Coefficients of friction at which sliding is measured.

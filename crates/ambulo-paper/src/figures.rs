@@ -1,8 +1,9 @@
 //! The figures of the paper as numbers: axes, curves and points, to be drawn and written by a report.
 
-use super::evidence::{Evidence, GAITS, MASSES, RATES_HZ};
+use super::evidence::{Evidence, MASSES, RATES_HZ};
 use super::ground_force::{measured_vertical, stance};
 use super::mode::Run;
+use super::open_values::GAITS;
 use super::paper_human::MASS;
 use super::steady::{POINTS, Steady};
 use ambulo_body::findings::Findings;

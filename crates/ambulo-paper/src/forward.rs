@@ -48,7 +48,8 @@ pub(super) const AMPLITUDE: Statement = Statement {
     id: "c2",
     kind: ClaimKind::Paper,
     paper: "high torques, which the irregularity explains: 80 kg x 6 m/s² x 1.2 m = ±576 N.m on average",
-    criterion: "half the range of the hip torque is within a factor of two of 576 N.m, and within a factor of two of the same \
+    criterion: "half the range of the hip torque is within a factor of two of 576 N.m, and within a factor of two of \
+        the same \
         calculation with the speeds found, which is what the irregularity explains",
     former: None,
     headline: "hip_torque_amplitude_nm",
@@ -78,7 +79,8 @@ pub(super) const SLOW: Statement = Statement {
     id: "c3",
     kind: ClaimKind::Paper,
     paper: "a cycle of one second corresponds to a slow walk",
-    criterion: "the speed that is walked, V/√(g L) with the leg length L, is at most 0.36: nearer to slow (0.290) than to free \
+    criterion: "the speed that is walked, V/√(g L) with the leg length L, is at most 0.36: nearer to slow (0.290) than \
+        to free \
         walking (0.429) of Schwartz, Rozumalski, Trost 2008",
     former: Some(Former {
         kind: ClaimKind::Paper,

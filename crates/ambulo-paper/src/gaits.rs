@@ -1,7 +1,8 @@
 //! Claim (g), figure 7: four gaits; and claim (j): the most plausible one.
 
 use super::claim::{ClaimKind, Former, Numbers, Statement, number};
-use super::evidence::{GAITS, Scope};
+use super::evidence::Scope;
+use super::open_values::GAITS;
 use super::steady::Steady;
 use ambulo_body::numerics::{correlation, extremes, mean, rms};
 
@@ -45,7 +46,8 @@ pub(super) const LOWEST: Statement = Statement {
     former: Some(Former {
         kind: ClaimKind::Paper,
         criterion: "short steps have the lowest root mean square of the knee torque",
-        reason: "the paper speaks of torque values of the gait, not of a mean over time of one joint; both are reported",
+        reason: "the paper speaks of torque values of the gait, not of a mean over time of one joint; both are \
+            reported",
         judge: |paper, _| least_of(paper, "knee_rms_nm") == "short",
     }),
     headline: "short_over_lowest_other",

@@ -20,7 +20,8 @@ pub(super) const HUMPS: Statement = Statement {
     id: "e1",
     kind: ClaimKind::Paper,
     paper: "the vertical force during support is quite similar to measured ones: two peaks",
-    criterion: "two peaks of a prominence of 0.1 body weights, and r >= 0.7 with the mean of Schwartz, Rozumalski, Trost 2008 \
+    criterion: "two peaks of a prominence of 0.1 body weights, and r >= 0.7 with the mean of Schwartz, Rozumalski, \
+        Trost 2008 \
         (children, free speed) over the stance",
     former: None,
     headline: "correlation_with_measured",

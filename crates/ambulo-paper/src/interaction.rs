@@ -24,7 +24,8 @@ const HANDS_S: f64 = 2.5;
 const CLOSED_M: f64 = 1e-3;
 
 /// Criterion of [`LOOPS`].
-const CHEAP: &str = "the cost of a step, conjugate-gradient iterations times bodies, grows with an exponent of 0.95 to 1.05 in the \
+const CHEAP: &str = "the cost of a step, conjugate-gradient iterations times bodies, grows with an exponent of 0.95 to \
+    1.05 in the \
     number of constraints without closed loops and of at most 2 with all of them closed";
 
 /// What closed loops cost.
@@ -37,7 +38,8 @@ pub const LOOPS: Statement = Statement {
     former: Some(Former {
         kind: ClaimKind::Paper,
         criterion: CHEAP,
-        reason: "conjugate gradients end after at most as many solves, each of linear cost, as there are loop constraints: \
+        reason: "conjugate gradients end after at most as many solves, each of linear cost, as there are loop \
+            constraints: \
             nothing that follows the paper could fail, so the claim leaves the count",
         judge: |paper, _| cheap(paper),
     }),
@@ -71,7 +73,8 @@ pub const OBSTACLE: Statement = Statement {
     id: "n2",
     kind: ClaimKind::ByConstruction,
     paper: "obstacles may stand or move",
-    criterion: "a paddle with a prescribed motion sweeps a box of 3 kg over a floor by more than 0.1 m, and no overlap is deeper than \
+    criterion: "a paddle with a prescribed motion sweeps a box of 3 kg over a floor by more than 0.1 m, and no overlap \
+        is deeper than \
         1 mm",
     former: None,
     headline: "swept_m",
@@ -120,7 +123,8 @@ pub const HAND_IN_HAND: Statement = Statement {
     id: "n4",
     kind: ClaimKind::ByConstruction,
     paper: "several figures are synchronised by their contact, as in walking hand in hand",
-    criterion: "the hands of two people of different size stay within 1 mm for 2.5 s of walking, and one is never more than half a \
+    criterion: "the hands of two people of different size stay within 1 mm for 2.5 s of walking, and one is never more \
+        than half a \
         step ahead of where both began",
     former: None,
     headline: "largest_gap_m",

@@ -75,7 +75,8 @@ pub(super) const CONTINUOUS: Statement = Statement {
     id: "h3",
     kind: ClaimKind::Paper,
     paper: "all torques are rather continuous",
-    criterion: "except for 20 ms around impacts, no curve has more than 4 jumps per cycle, which are changes by more than 5 % of its \
+    criterion: "except for 20 ms around impacts, no curve has more than 4 jumps per cycle, which are changes by more \
+        than 5 % of its \
         range within one millisecond",
     former: None,
     headline: "hip_jumps_a_cycle",
@@ -116,7 +117,8 @@ pub(super) const SIGNS: Statement = Statement {
     kind: ClaimKind::Paper,
     paper: "support: a negative propulsive torque, then a positive one; swing: a lower positive torque brings the leg \
         back",
-    criterion: "the hip torque (flexion +) is on average negative in the first half of stance, positive in the second half, and \
+    criterion: "the hip torque (flexion +) is on average negative in the first half of stance, positive in the second \
+        half, and \
         positive but lower in swing",
     former: None,
     headline: "hip_mean_late_support_nm",

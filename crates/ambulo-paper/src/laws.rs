@@ -2,8 +2,9 @@
 //! speed.
 
 use super::claim::{ClaimKind, Numbers, Statement, number, numbers};
-use super::evidence::{GAITS, Scope};
+use super::evidence::Scope;
 use super::figures::REFERENCE_LEG;
+use super::open_values::GAITS;
 use ambulo_body::findings::Findings;
 use ambulo_body::numerics::elementary::ln;
 use ambulo_walk::gait::{CyclicCurve, Gait, GaitError, Jet, LegAngles, Pace, PaceChange, Speed, Style, Walk};
@@ -25,7 +26,8 @@ pub(super) const SMOOTH: Statement = Statement {
     id: "l1",
     kind: ClaimKind::ByConstruction,
     paper: "angles are C2, and the angular velocity has one sign in each sub-cycle",
-    criterion: "no acceleration of hip, knee and ankle changes by more than 0.001 of its largest value within 2 µs about a bound, and \
+    criterion: "no acceleration of hip, knee and ankle changes by more than 0.001 of its largest value within 2 µs \
+        about a bound, and \
         no sub-cycle both flexes and extends, in the four gaits",
     former: None,
     headline: "largest_jump_of_acceleration_share",
@@ -52,7 +54,8 @@ pub(super) const SPEED_LAW: Statement = Statement {
     id: "l2",
     kind: ClaimKind::ByConstruction,
     paper: "speed is step length times step frequency, and people lengthen the step rather than raise the frequency",
-    criterion: "the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9, and more than half of the increase comes from the \
+    criterion: "the speed of walks at 1.0 and 1.6 m/s is this product within 1e-9, and more than half of the increase \
+        comes from the \
         step length, in logarithms",
     former: None,
     headline: "share_of_step_length",
@@ -77,7 +80,8 @@ pub(super) const CHANGE: Statement = Statement {
     id: "l3",
     kind: ClaimKind::ByConstruction,
     paper: "if the velocity changes, all states are synchronized using the new sub-cycle parameters",
-    criterion: "after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the angles of a walk at \
+    criterion: "after a change from 1.2 to 1.6 m/s in one second, hip, knee and ankle have at every phase the angles \
+        of a walk at \
         1.6 m/s within 0.000001 deg, and no acceleration jumps at either end of the change",
     former: None,
     headline: "difference_after_the_change_deg",

@@ -44,20 +44,20 @@ pub use claim::{Claim, FormerJudgement, Judgement, Numbers, former_tally, number
 pub use corrected::CorrectedMode;
 pub use error::ReproductionError;
 pub use evidence::{
-    BRIEF_CYCLES, CYCLES, Evidence, FRICTION, FRICTIONS, GAITS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
+    BRIEF_CYCLES, CYCLES, Evidence, FRICTION, FRICTIONS, MASSES, RATE_HZ, RATES_HZ, REFERENCE_HZ, Scope,
 };
 pub use experiments::add_experiments;
 pub use figures::{FigureSet, PaperFigure, PaperPanel, PaperSeries, SeriesKind, angular_laws, paper_figures, quintics};
 pub use ground_force::{MEASURED_FOOT_OFF, VERTICAL_EVERY_4_PERCENT, measured_vertical};
 pub use harmonics::torque_series;
-pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk, paper_walk_with};
+pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk_with};
 pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
-pub use open_values::{KNOT_RANGE, KNOTS, OpenKind, OpenValue, open_values};
+pub use open_values::{GAITS, KNOT_RANGE, KNOTS, OpenKind, OpenValue, open_values};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 #[doc(hidden)]
 pub use paper_settings::PaperSettings;
-pub use setting::{NAMED, Setting};
+pub use setting::{NAMED, Setting, paper_walk};
 pub use shares::{ClaimShare, StoredShares, judged_of_the_paper, read_shares, shares_csv, shares_of, stored_shares};
 pub use statements::{claims, judgements};
 #[doc(hidden)]
@@ -70,5 +70,6 @@ pub mod internals {
     pub use crate::claim::Statement;
     pub use crate::ground_force::humps;
     pub use crate::interaction::{GRASP_CLAIM, HAND_IN_HAND, LOOPS, OBSTACLE};
+    pub use crate::setting::CLAIMS;
     pub use crate::statements::statement;
 }

@@ -15,7 +15,8 @@ pub(super) const EXACTLY: Statement = Statement {
     id: "f1",
     kind: ClaimKind::ByConstruction,
     paper: "the amplitude of the torques changes in a scale close to that of the weight, the shape stays",
-    criterion: "all torques at 60 and 100 kg are equal to those at 80 kg times the ratio of the masses, within 1e-6 of the largest, \
+    criterion: "all torques at 60 and 100 kg are equal to those at 80 kg times the ratio of the masses, within 1e-6 of \
+        the largest, \
         with the same lengths and radii",
     former: None,
     headline: "departure_60_kg",
@@ -42,7 +43,8 @@ pub(super) const NEARLY: Statement = Statement {
     id: "f2",
     kind: ClaimKind::Paper,
     paper: "the change of mass slightly changes the torques during the swing phase too",
-    criterion: "with the same density, and therefore other radii of segments and soles, the hip torque in swing, scaled by the mass, \
+    criterion: "with the same density, and therefore other radii of segments and soles, the hip torque in swing, \
+        scaled by the mass, \
         differs by more than rounding and by less than 20 % of its root mean square",
     former: None,
     headline: "dense_100_kg_swing_difference_percent",

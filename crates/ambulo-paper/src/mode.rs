@@ -2,7 +2,6 @@
 
 use super::error::ReproductionError;
 use super::paper_settings::PaperSettings;
-use super::setting::Setting;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{ContactSphere, Human};
 use ambulo_walk::engine::{ImpactLaw, StepSettings};
@@ -64,16 +63,8 @@ pub struct Run {
 pub type Mode<'a> = dyn FnMut(&TrialSettings<'_>) -> Result<Run, ReproductionError> + 'a;
 
 /// Simulates a walk as in the paper: joints driven by the gait, the trunk held upright, the root free to slide, rigid
-/// contacts whose impacts cancel the whole velocity of the point, Coulomb friction. Values that the paper does not give
-/// are those of [`Setting::papers_results`].
-///
-/// # Errors
-/// A gait that is not possible for the figure, or a walk that cannot be simulated.
-pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
-    Setting::papers_results()?.walk(trial)
-}
-
-/// Simulates a walk as in the paper, with other values for quantities that the paper does not give.
+/// contacts whose impacts cancel the whole velocity of the point, Coulomb friction. The settings have the values that
+/// the paper does not give.
 ///
 /// # Errors
 /// A gait that is not possible for the figure, or a walk that cannot be simulated.

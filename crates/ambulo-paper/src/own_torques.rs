@@ -33,8 +33,10 @@ pub(super) const OWN_TORQUES: Statement = Statement {
     kind: ClaimKind::Ours,
     paper: "(proposed at the end of the paper) parameterised torque curves drive a physically simulated walk that \
         adapts to its surroundings",
-    criterion: "the paper's figure, without anything that holds its trunk and with 5 harmonics for each torque curve, walks 30 steps \
-        on level ground, 10 after a push of 100 N for 0.2 s and 10 on ground that rises by 3 %, with feedback of its state",
+    criterion: "the paper's figure, without anything that holds its trunk and with 5 harmonics for each torque curve, \
+        walks 30 steps \
+        on level ground, 10 after a push of 100 N for 0.2 s and 10 on ground that rises by 3 %, with feedback of its \
+        state",
     former: None,
     headline: "steps_on_level_ground",
     scope: Scope::Full,

@@ -1,8 +1,7 @@
 //! Values that the paper does not give, and their effect on figure, gait and signals.
 
 use super::error::ReproductionError;
-use super::evidence::GAITS;
-use super::open_values::KNOTS;
+use super::open_values::{GAITS, KNOTS};
 use super::paper_human::{rebuilt, with_soles, with_thickness, with_toe_reach};
 use ambulo_body::contact::HuntCrossley;
 use ambulo_body::model::anthropometry::{Human, SpherePart};

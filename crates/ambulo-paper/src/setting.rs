@@ -9,7 +9,6 @@ use super::mode::{Run, TrialSettings, paper_walk_with};
 use super::open_values::{KNOTS, OpenKind, OpenValue, open_values};
 use super::paper_human::TABLE_FOOT;
 use super::paper_settings::PaperSettings;
-use super::statements::claim_ids;
 use ambulo_body::contact::HuntCrossley;
 use ambulo_body::numerics::Random;
 use ambulo_body::numerics::elementary::{exp, ln};
@@ -235,6 +234,20 @@ impl Setting {
     }
 }
 
+/// Simulates a walk of the paper's mode with the values of [`Setting::papers_results`].
+///
+/// # Errors
+/// A gait that is not possible for the figure, or a walk that cannot be simulated.
+pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
+    Setting::papers_results()?.walk(trial)
+}
+
+/// Letters of the claims of the paper, now or formerly, that could fail: those that a file may list.
+pub const CLAIMS: [&str; 22] = [
+    "a1", "c1", "c2", "c3", "c4", "d1", "e1", "e2", "e3", "f2", "g1", "g2", "g3", "h1", "h2", "h3", "h4", "i", "j",
+    "m1", "m2", "n1",
+];
+
 /// Keys in the table of a knot.
 const KNOT_KEYS: [&str; 2] = ["time_percent", "angle_deg"];
 /// Keys of a file.
@@ -267,7 +280,7 @@ fn refuse_unknown(root: &Table<'_>) -> Result<(), TomlError> {
 /// The claims that a file says hold.
 fn read_holds(root: &Table<'_>) -> Result<Option<Vec<String>>, TomlError> {
     let Some(value) = root.get("holds") else { return Ok(None) };
-    let known: Vec<(&str, &str)> = claim_ids().map(|id| (id, id)).collect();
+    let known = CLAIMS.map(|id| (id, id));
     let ids = value.list("a list of claims, such as [\"c1\", \"e1\"]")?;
     ids.iter().map(|id| id.choice(&known).map(str::to_owned)).collect::<Result<_, _>>().map(Some)
 }

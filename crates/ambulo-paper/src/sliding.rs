@@ -48,7 +48,8 @@ pub(super) const FORCED: Statement = Statement {
     id: "d2",
     kind: ClaimKind::Ours,
     paper: "(not in the paper) sliding that no friction can prevent: in double support the feet have different speeds",
-    criterion: "in the double support of the gait the lowest points of the feet move more than 1 mm per step relative to each other",
+    criterion: "in the double support of the gait the lowest points of the feet move more than 1 mm per step relative \
+        to each other",
     former: None,
     headline: "forced_slip_mm_a_step",
     scope: Scope::Brief,

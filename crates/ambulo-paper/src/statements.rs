@@ -56,11 +56,6 @@ pub fn claims(paper: &Evidence, corrected: Option<&Evidence>) -> Vec<Claim> {
     STATEMENTS.iter().map(|statement| statement.claim(paper, corrected)).collect()
 }
 
-/// The letters of all claims.
-pub(super) fn claim_ids() -> impl Iterator<Item = &'static str> {
-    STATEMENTS.iter().map(|statement| statement.id)
-}
-
 /// Judges the claims for which the walks of a scope are sufficient.
 #[must_use]
 pub fn judgements(paper: &Evidence, scope: Scope) -> Vec<Judgement> {

@@ -1,5 +1,6 @@
 //! Settings: files, names, and what they change.
 
+use ambulo_paper::internals::{CLAIMS, statement};
 use ambulo_paper::{
     Claim, ClaimKind, Evidence, FRICTION, Footwear, GAITS, KNOTS, NAMED, OpenKind, Scope, Setting, TrialSettings,
     claims, former_tally, number, open_values, paper_human, tally,
@@ -41,6 +42,14 @@ fn a_setting_is_read_as_it_is_written() {
     }
     let drawn = Setting::drawn(3, 4);
     assert_eq!(Setting::from_toml(&drawn.to_toml()).unwrap().values(), drawn.values());
+}
+
+#[test]
+fn a_file_may_list_the_claims_that_count_or_counted() {
+    let statements = CLAIMS.map(|id| statement(id).unwrap());
+    for (id, statement) in CLAIMS.iter().zip(statements) {
+        assert!(statement.could_fail(), "{id}");
+    }
 }
 
 #[test]

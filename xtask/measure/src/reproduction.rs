@@ -183,7 +183,8 @@ fn muscle_table(claims: &[Claim]) -> String {
 
 fn assumption_table(claims: &[Claim], setting: &Setting, others: &[Sensitivity]) -> String {
     let mut section = String::from(
-        "\n## Values that the paper does not give\n\n| quantity | value | range | source of the range | open because | other \
+        "\n## Values that the paper does not give\n\n| quantity | value | range | source of the range | open because | \
+         other \
          value → claims that change |\n|---|---|---|---|---|---|\n",
     );
     for assumption in assumptions(setting) {
