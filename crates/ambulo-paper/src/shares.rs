@@ -118,7 +118,8 @@ pub fn shares_of(judged: &[(Setting, Vec<bool>)], claims: &[&str]) -> Vec<ClaimS
         let all = open_values().iter().enumerate().map(|(place, open)| (open.name(), parts(place)));
         let apart = |[lower, upper]: [f64; 2]| (upper - lower).abs();
         let widest = all.max_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
-        let (decided_by, [lower, upper]) = widest.unwrap_or_default();
+        let widest = widest.filter(|(_, ends)| apart(*ends) > 0.0);
+        let (decided_by, [lower, upper]) = widest.unwrap_or_else(|| (String::new(), [share(&held); 2]));
         ClaimShare { id: (*id).to_owned(), share: share(&held), decided_by, lower, upper }
     };
     claims.iter().enumerate().map(of_claim).collect()
@@ -129,6 +130,10 @@ fn ends(values: &[f64], held: &[bool]) -> [f64; 2] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else { return [0.0; 2] };
+    if sorted[0] >= sorted[last] {
+        // A switch that is never drawn decides nothing.
+        return [share(held); 2];
+    }
     let [low, high] = [sorted[last / 3], sorted[last - last / 3]];
     let part = |within: &dyn Fn(f64) -> bool| {
         let own: Vec<bool> =

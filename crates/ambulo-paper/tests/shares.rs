@@ -5,6 +5,7 @@ use ambulo_paper::{Setting, open_values, shares_csv, shares_of, stored_shares};
 #[test]
 fn stored_results_are_read_as_they_are_written() {
     assert_eq!(shares_csv(stored_shares()), include_str!("../data/shares.csv"));
+    assert!(stored_shares().settings >= 2000 && stored_shares().of("c1").is_some_and(|own| own.share > 0.0));
 }
 
 #[test]
@@ -32,5 +33,8 @@ fn the_value_that_decides_a_claim_is_found() {
     assert_eq!((tall.decided_by.as_str(), toes.decided_by.as_str()), ("stature_m", "toe_spheres"));
     assert!(tall.lower < 0.01 && tall.upper > 0.9, "{tall:?}");
     assert!(toes.lower > 0.99 && toes.upper < 0.01, "{toes:?}");
+    // A claim that holds always or never is decided by nothing, and not by a switch that is never drawn.
+    let constant: Vec<(Setting, Vec<bool>)> = judged.iter().map(|(setting, _)| (setting.clone(), vec![true])).collect();
+    assert_eq!(shares_of(&constant, &["e4"])[0].decided_by, "");
     assert!((tall.share - 1.0 / 3.0).abs() < 0.1 && (toes.share - 0.5).abs() < 0.1);
 }
