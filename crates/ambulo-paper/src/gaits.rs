@@ -32,7 +32,8 @@ pub(super) const SHAPE: Statement = Statement {
         numbers
     },
     judge: |paper, _| {
-        let (least, most) = extremes(&paper.iter().map(|(_, r)| *r).collect::<Vec<f64>>());
+        let least = number(paper, "least_r");
+        let (_, most) = extremes(&paper.iter().map(|(_, r)| *r).collect::<Vec<f64>>());
         let note = format!("found {least:.2} to {most:.2}");
         (least >= ALIKE, note)
     },
