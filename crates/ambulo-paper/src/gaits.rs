@@ -33,7 +33,7 @@ pub(super) const SHAPE: Statement = Statement {
     },
     judge: |paper, _| {
         let least = number(paper, "least_r");
-        let (_, most) = extremes(&paper.iter().map(|(_, r)| *r).collect::<Vec<f64>>());
+        let most = paper.iter().map(|(_, r)| *r).fold(f64::NEG_INFINITY, f64::max);
         let note = format!("found {least:.2} to {most:.2}");
         (least >= ALIKE, note)
     },
