@@ -84,7 +84,7 @@ fn scenes_and_options_that_cannot_be_tuned_are_refused_before_anything_is_comput
         (&["scene.toml", "--push", "nan"], "expected a force from 1 to 10000 N"),
         (&["scene.toml", "--push", "1e308"], "expected a force from 1 to 10000 N"),
         (&["scene.toml", "--pushes", "0"], "0 is not in 1..=1000"),
-        (&["scene.toml", "--jobs", "0"], "0 is not in 1..=1024"),
+        (&["scene.toml", "--jobs", "0"], "expected a whole number from 1 to 1024"),
         (&["scene.toml", "--seed", "1.5"], "invalid digit"),
         (&["scene.toml", "--evaluations", "1e9"], "invalid digit"),
         (&["scene.toml", "--evaluations", "18446744073709551616"], "--evaluations"),

@@ -89,7 +89,7 @@ impl Setting {
     #[must_use]
     pub fn to_toml(&self) -> String {
         let mut text = String::from(
-            "# A setting of `ambulo reproduce --setting FILE`: every value that the paper of 1997 does not give.\n\
+            "# A setting of the paper's mode: every value that the paper of 1997 does not give.\n\
              # Above each value: what it is, its plausible range, where the range is from, and why it is open.\n\n",
         );
         let _ = writeln!(text, "name = {}\nabout = {}", quoted(&self.name), quoted(&self.about));
@@ -97,7 +97,7 @@ impl Setting {
             let ids = holds.iter().map(|id| quoted(id)).collect::<Vec<String>>().join(", ");
             let _ = writeln!(
                 text,
-                "# Claims of the paper that hold with these values; `--check` tests them.\nholds = [{ids}]"
+                "# Claims of the paper that hold with these values; a check fails if one of them does not.\nholds = [{ids}]"
             );
         }
         let mut table = "";

@@ -36,15 +36,20 @@ fn value(id: &str, name: &str) -> f64 {
 
 #[test]
 fn torques_and_their_integrals_converge_as_the_rate_grows() {
-    let errors =
-        |id: &str, what: &str| [30, 60, 120, 1000].map(|rate| value(id, &format!("hip_{what}_{rate}hz_percent")));
-    // The mean of the joints falls from rate to rate, which is the criterion; a single joint falls from end to end.
-    let torque = errors("a1", "torque");
-    assert!(torque[3] < 0.5 * torque[0] && torque[3] < 1.0, "{torque:?}");
+    let joints = ["hip", "knee", "ankle"];
+    for (id, what, finest) in [("a1", "torque", 1.0), ("a2", "impulse", 5.0)] {
+        let at = |joint: &str, rate: i32| value(id, &format!("{joint}_{what}_{rate}hz_percent"));
+        let mean = |rate| joints.map(|joint| at(joint, rate)).iter().sum::<f64>() / 3.0;
+        let errors = [30, 60, 120, 1000].map(mean);
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[3] < finest, "{what}: {errors:?}");
+        assert!(joints.iter().all(|joint| at(joint, 1000) < 0.2 * at(joint, 30)), "{what}");
+    }
     assert!(claim("a1").pass, "{}", claim("a1").note);
-    // A foot that touches twice adds up differently at coarse rates, where the second touch is missed or moved.
-    let impulse = errors("a2", "impulse");
-    assert!(impulse[3] < 0.25 * impulse[0], "{impulse:?}");
+    // Impulses of impacts are still off by more than 2 % at 1000 Hz: a claim of ours, which is not counted.
+    assert!(!claim("a2").pass && claim("a2").kind == ClaimKind::Ours, "{}", claim("a2").note);
+    // What impacts and forces add up to is of the first order, or nearly; torques jump where soles slip, at an instant
+    // known to a step.
+    assert!((0.6..1.2).contains(&value("a2", "order")), "{}", value("a2", "order"));
 }
 
 #[test]

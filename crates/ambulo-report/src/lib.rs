@@ -41,7 +41,7 @@ pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 pub use validation::{ListedTrial, listed_section, validation_files};
 
-/// For the tests of this crate.
+/// For the tests of results and pages.
 #[doc(hidden)]
 pub mod internals {
     pub use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
@@ -59,7 +59,7 @@ pub mod internals {
         Drawing, Stroke, escaped as escaped_xml, short as two_decimals, text_width, without_zeros,
     };
     pub use crate::html::escaped as escaped_html;
-    pub use crate::normative::{BAND_SAMPLES, Bands, NormalRange, band, dimensionless_speed, time_distance};
+    pub use crate::normative::{BAND_SAMPLES, Bands, Curves, NormalRange, band, dimensionless_speed, time_distance};
     pub use crate::page::session::cells::number;
     pub use crate::page::session::extracted::{Part, Read};
     pub use crate::page::session::feasibility::basis::percent;

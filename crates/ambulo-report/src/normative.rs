@@ -153,7 +153,6 @@ pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: 
 }
 
 /// Rows of the file, one per speed.
-#[doc(hidden)] // for tests
 #[derive(Debug, Clone)]
 pub struct Curves {
     /// Means.
@@ -173,7 +172,6 @@ struct Times {
 }
 
 /// The normative data of all speeds.
-#[doc(hidden)] // for tests
 #[derive(Debug, Clone)]
 pub struct Bands {
     speeds: [f64; SPEEDS],

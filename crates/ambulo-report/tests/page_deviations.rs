@@ -2,9 +2,7 @@
 
 use ambulo::analysis::CYCLE_SAMPLES;
 use ambulo::model::Side;
-use ambulo_report::internals::Deviation;
-use ambulo_report::internals::band;
-use ambulo_report::internals::{ClinicalNames, clinical_quantities};
+use ambulo_report::internals::{ClinicalNames, Deviation, band, clinical_quantities};
 use ambulo_results::Convention;
 
 #[test]

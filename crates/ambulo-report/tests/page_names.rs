@@ -1,7 +1,6 @@
 //! Names of quantities as a page shows them.
 
-use ambulo_report::internals::in_words;
-use ambulo_report::internals::{ClinicalNames, clinical_quantities};
+use ambulo_report::internals::{ClinicalNames, clinical_quantities, in_words};
 
 #[test]
 fn names_of_files_become_words() {

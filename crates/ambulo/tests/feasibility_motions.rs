@@ -392,7 +392,7 @@ fn a_person_with_a_heel_beside_the_plate_and_misplaced_toe_markers_is_not_called
     let verdict = outcome.verdict;
     assert_eq!(verdict.state, VerdictState::NotJudged, "{:?}", verdict.reasons);
     assert!(verdict.undecided.iter().any(|why| why.contains("direction of a foot")), "{:?}", verdict.undecided);
-    assert!(verdict.residual_force_bw.unwrap() < 0.2, "{:?}", verdict.residual_force_bw);
+    assert!(verdict.fit.residual_force_bw.unwrap() < 0.2, "{:?}", verdict.fit.residual_force_bw);
 }
 
 #[test]

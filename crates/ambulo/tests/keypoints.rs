@@ -211,7 +211,7 @@ fn raw_and_filtered_keypoints_of_a_person_who_balances_agree() {
     let Some(folder) = shared_data::data() else { return };
     let [raw, filtered] = ["", "_filt_butterworth"]
         .map(|ending| outcome(&folder, &format!("S00_P00_T01_BalancingTrial_0-100{ending}.trc")));
-    let residual = |outcome: &Outcome| outcome.verdict.residual_force_bw.unwrap();
+    let residual = |outcome: &Outcome| outcome.verdict.fit.residual_force_bw.unwrap();
     println!("residual {:.3} and {:.3} body weights", residual(&raw), residual(&filtered));
     assert!(residual(&raw) < 0.15 && residual(&filtered) < 0.12);
     for joint in ["hip_flexion", "knee_angle", "ankle_angle"] {

@@ -120,7 +120,7 @@ fn walks_of_seven_people_are_good_with_measured_and_with_predicted_forces() {
     for person in &PEOPLE {
         for settings in [Settings::default(), predicted()] {
             let outcome = study::run(person.source(&data), &settings, &mut Findings::default()).unwrap();
-            println!("{} {:?}", person.name, [outcome.verdict.residual_force_bw, outcome.verdict.sliding_m_s]);
+            println!("{} {:?}", person.name, outcome.verdict.fit);
             let quality = outcome.quality;
             assert_eq!(quality.state, QualityState::Good, "{}: {:?}", person.name, quality.reasons);
         }

@@ -93,7 +93,7 @@ fn text(results: &Results) -> String {
 
 fn counts(results: &Results) -> String {
     let mut section = String::from(
-        "\n## Settings that come with the program\n\n| setting | claims that hold | by the criteria before 2026 \
+        "\n## Settings that come with the program\n\n| setting | claims that hold | by the first criteria \
          |\n|---|---|---|\n",
     );
     for (name, [held, all], [before, all_before]) in &results.named {

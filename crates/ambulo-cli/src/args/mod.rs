@@ -121,7 +121,7 @@ impl PrintArgs {
     pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
 }
 
-/// How a request is handled: none of this changes a result.
+// How a request is handled: none of this changes a result. (A doc comment would become that of the subcommand.)
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct Handling {
     #[command(flatten)]

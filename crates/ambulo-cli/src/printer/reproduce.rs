@@ -41,7 +41,7 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
 /// Criteria that were changed, with their reasons and what they gave before.
 fn changed_criteria(claims: &[Claim]) -> Result<()> {
     let [held, all] = former_tally(claims);
-    print_line(&format!("  by the criteria before 2026: {held} of {all}. Changes:"))?;
+    print_line(&format!("  by the first criteria: {held} of {all}. Changes:"))?;
     for claim in claims {
         let Some(former) = &claim.former else { continue };
         let words = |pass: bool| if pass { "holds" } else { "fails" };

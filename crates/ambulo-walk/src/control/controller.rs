@@ -76,7 +76,7 @@ impl WalkController {
                 standing: None,
                 body: Arc::new(body),
                 speed,
-                taller: 1.0,
+                height_ratio: 1.0,
             },
             phase: Phase::new(&human.model, step.step_s),
             feedback,

@@ -36,7 +36,7 @@ pub struct Fall {
 
 impl Fall {
     /// A sentence about the fall: time, steps and cause.
-    pub(crate) fn told(&self, name: &str, model: &Model) -> String {
+    pub(crate) fn description(&self, name: &str, model: &Model) -> String {
         let cause = self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
             format!(
                 "the muscles of `{}` were at their strength from {since_s:.2} s",

@@ -115,7 +115,7 @@ impl Feedback {
             return feedback;
         }
         let up = plan.root().up;
-        let higher = phase.level_m + (plan.taller - 1.0) * planned.state[0][up];
+        let higher = phase.level_m + (plan.height_ratio - 1.0) * planned.state[0][up];
         let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
         let deviation = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));

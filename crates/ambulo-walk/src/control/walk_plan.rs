@@ -11,7 +11,7 @@
 //! | `PlannedStep::torques` | τ* | N.m | torques in its middle |
 //! | `Pace::gains` | K | N.m per unit of state | one row per joint, one column per entry of the state |
 //! | `speed` | v | m/s | present speed |
-//! | `taller` | | 1 | hip height over that of the figure of the plan |
+//! | `height_ratio` | | 1 | hip height over that of the figure of the plan |
 //!
 //! Pinned by: tests/physical_walk.rs.
 
@@ -70,7 +70,7 @@ pub(super) struct WalkPlan {
     /// The present speed [m/s].
     pub(super) speed: f64,
     /// Hip height over that of the figure of the plan.
-    pub(super) taller: f64,
+    pub(super) height_ratio: f64,
 }
 
 impl WalkPlan {
@@ -126,7 +126,7 @@ impl WalkPlan {
     pub(super) fn start(&self, at: Moment) -> [Vec<f64>; 2] {
         let [mut q, qd] = self.step(at).state;
         let up = self.root().up;
-        q[up] *= self.taller;
+        q[up] *= self.height_ratio;
         let lowest = self.body.lowest(&q).into_iter().fold(f64::INFINITY, f64::min);
         let planned = match &self.standing {
             Some(standing) if at.stage != Stage::Walking => standing.soles_m[0].min(standing.soles_m[1]),
@@ -138,7 +138,7 @@ impl WalkPlan {
 
     /// The same plan for another figure with the same joints: heights grow with its legs.
     pub(super) fn of_figure(&mut self, human: &Human) {
-        self.taller *= human.dimensions.leg_length / self.body.leg_length;
+        self.height_ratio *= human.dimensions.leg_length / self.body.leg_length;
         self.body = Arc::new(Body::of(human));
     }
 

@@ -129,8 +129,8 @@ impl FigureRecorder {
     }
 
     /// Message about a fall.
-    pub(crate) fn told(&self, fall: &Fall) -> String {
-        fall.told(&format!("`{}`", self.name), &self.human.model)
+    pub(crate) fn description(&self, fall: &Fall) -> String {
+        fall.description(&format!("`{}`", self.name), &self.human.model)
     }
 
     /// Sets the motors of a figure that walks by its own torques.

@@ -54,7 +54,7 @@ impl Recorder {
     /// Message about the fall of a figure that walks by its own torques.
     pub(super) fn fall(&self) -> Option<String> {
         let Recorder::Walk(recorder) = self else { return None };
-        recorder.fall().map(|fall| recorder.told(&fall))
+        recorder.fall().map(|fall| recorder.description(&fall))
     }
 
     /// Whether machines of the figure read the simulation.

@@ -39,7 +39,7 @@ pub(super) fn physical(
         findings.report(found.code, found.message.clone());
     }
     if let Some(fall) = figure.fall() {
-        findings.report(Code::FigureFell, fall.told("the figure", &human.model));
+        findings.report(Code::FigureFell, fall.description("the figure", &human.model));
         kept = KeptPart::of_rows(settings, kept.first.min(recording.grid().frames - 1), recording.grid().frames);
     }
     let correction = CorrectionReport::of(&first.problem, &first.solution, first.solution.cycle_s())?;

@@ -281,7 +281,7 @@ fn without_faults_of_data(
 /// Reports loaded feet that slide where forces were predicted; a refit may hold them.
 fn report_sliding(outcome: &Outcome, settings: &Settings, findings: &mut Findings) {
     let is_predicted = matches!(outcome.force_origin, ForceOrigin::Predicted { .. });
-    let slides = outcome.verdict.sliding_m_s.filter(|speed| Measure::Sliding.is_bad(*speed));
+    let slides = outcome.verdict.fit.sliding_m_s.filter(|speed| Measure::Sliding.is_bad(*speed));
     if let Some(speed) = slides.filter(|_| is_predicted && !settings.refit) {
         let message = format!(
             "soles that carry the body slide at {speed:.2} m/s or more for three quarters of the time: predicted \

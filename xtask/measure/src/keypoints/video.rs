@@ -71,7 +71,7 @@ fn row(name: &str, bytes: &[u8]) -> Result<[String; 8], String> {
         largest.collect::<Result<Vec<f64>, String>>().map(|list| format!("{:.2} {:.2}", list[0], list[1]))
     };
     let [hip, knee, ankle] = JOINTS.map(peak);
-    let residual = found.verdict.residual_force_bw.map_or("-".to_owned(), |x| format!("{x:.3}"));
+    let residual = found.verdict.fit.residual_force_bw.map_or("-".to_owned(), |x| format!("{x:.3}"));
     let reasons: Vec<&str> = found.quality.reasons.iter().map(|r| r.measure.name()).collect();
     let quality = format!("{} ({})", found.quality.state.word(), reasons.join(", "));
     let off = trunk_off_deg(&found, &world)?;

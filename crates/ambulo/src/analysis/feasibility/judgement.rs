@@ -8,7 +8,8 @@ use super::person::Person;
 use super::spans::{Span, Track};
 use super::thresholds::Thresholds;
 use super::verdict::{
-    Check, Closest, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState, undecided_by_other_support,
+    Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState,
+    undecided_by_other_support,
 };
 use crate::findings::{Code, Findings};
 use crate::kinematics::each_body_motion;
@@ -77,10 +78,7 @@ pub fn check(
         frames_predicted: coverage.predicted.iter().filter(|predicted| **predicted).count(),
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
-        complete_share: coverage.complete_share(),
-        residual_force_bw: coverage.residual_force_bw(&limits),
-        residual_moment_nm_kg: coverage.rms(coverage.residual_nm2).map(|moment_nm| moment_nm / limits.mass),
-        sliding_m_s: lower_quartile(&coverage.slips),
+        fit: coverage.fit(&limits),
     }
 }
 
@@ -248,19 +246,15 @@ impl Coverage {
         findings.report(Code::FeasibilityUnmeasuredSupport, message);
     }
 
-    /// Share of the frames in which the given ground forces are complete.
-    fn complete_share(&self) -> f64 {
-        self.judged_as_given as f64 / self.counted.max(1) as f64
-    }
-
-    /// Root mean square over these frames; `None` without such frames.
-    fn rms(&self, squares: f64) -> Option<f64> {
-        (self.judged_as_given > 0).then(|| (squares / self.judged_as_given as f64).sqrt())
-    }
-
-    /// Residual force in these frames [body weights].
-    fn residual_force_bw(&self, limits: &FeasibilityLimits) -> Option<f64> {
-        self.rms(self.residual_n2).map(|force_n| force_n / limits.weight)
+    /// How well motion and ground forces fit together.
+    fn fit(&self, limits: &FeasibilityLimits) -> FitOfForces {
+        let rms = |squares: f64| (self.judged_as_given > 0).then(|| (squares / self.judged_as_given as f64).sqrt());
+        FitOfForces {
+            residual_force_bw: rms(self.residual_n2).map(|force_n| force_n / limits.weight),
+            residual_moment_nm_kg: rms(self.residual_nm2).map(|moment_nm| moment_nm / limits.mass),
+            complete_share: self.judged_as_given as f64 / self.counted.max(1) as f64,
+            sliding_m_s: lower_quartile(&self.slips),
+        }
     }
 
     /// Why this motion cannot be called feasible.
@@ -278,7 +272,7 @@ impl Coverage {
                 100.0 * LEAST_JUDGED_SHARE
             ));
         }
-        let measured = self.complete_share();
+        let FitOfForces { residual_force_bw, complete_share: measured, .. } = self.fit(limits);
         if !motion.ground.bodies.is_empty() && self.counted > 0 && measured < LEAST_MEASURED_SHARE {
             list.push(format!(
                 "the measured ground forces carry the body in {:.0} % of the frames; they may not be those of this \
@@ -286,7 +280,7 @@ impl Coverage {
                 100.0 * measured
             ));
         }
-        let residual_bw = self.residual_force_bw(limits).unwrap_or(0.0);
+        let residual_bw = residual_force_bw.unwrap_or(0.0);
         if residual_bw > LARGE_RESIDUAL_BW {
             list.push(format!(
                 "the residual force is {:.0} % of body weight; above {:.0} %, motion, body and ground forces do not \

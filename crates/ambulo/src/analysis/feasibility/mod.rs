@@ -27,6 +27,6 @@ pub(crate) use judgement::inner_frames;
 pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use thresholds::Thresholds;
-pub use verdict::{Check, Closest, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
+pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
 
 pub(super) use ground_speed::over_ground;

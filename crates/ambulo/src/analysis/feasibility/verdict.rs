@@ -146,22 +146,25 @@ pub struct Verdict {
     pub mass_kg: f64,
     /// Stature used for the strength [m].
     pub height_m: f64,
-    /// Share of the frames, without the first and last 0.1 s, in which the given ground forces are complete. How well
-    /// motion and forces fit together there is about the data, not about the movement: [`crate::study::Quality`] judges
-    /// this and the following values.
+    /// How well motion and ground forces fit together.
     #[serde(skip)]
-    pub complete_share: f64,
-    /// Residual force in these frames, root mean square [body weights]; `None` without such frames.
-    #[serde(skip)]
+    pub fit: FitOfForces,
+}
+
+/// How well motion and ground forces fit together, over the frames in which the given ground forces are complete. This
+/// is about the data, not about the movement: [`crate::study::Quality`] judges it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FitOfForces {
+    /// Residual force, root mean square [body weights]; `None` without such frames.
     pub residual_force_bw: Option<f64>,
-    /// Residual moment about the root in these frames, root mean square, per body mass [N.m/kg].
-    #[serde(skip)]
+    /// Residual moment about the root, root mean square, per body mass [N.m/kg].
     pub residual_moment_nm_kg: Option<f64>,
+    /// Share of the frames, without the first and last 0.1 s.
+    pub complete_share: f64,
     /// Speed of soles along the ground while they carry at least [`Thresholds::sliding_load_bw`] [m/s]: lower quartile,
     /// because a foot that rolls off moves for a part of that time.
     ///
     /// [`Thresholds::sliding_load_bw`]: super::Thresholds::sliding_load_bw
-    #[serde(skip)]
     pub sliding_m_s: Option<f64>,
 }
 

@@ -164,7 +164,7 @@ impl QualityEvidence<'_> {
     }
 
     fn residual_force(&self) -> Option<QualityReason> {
-        let force_bw = self.verdict.residual_force_bw?;
+        let force_bw = self.verdict.fit.residual_force_bw?;
         Measure::ResidualForce.reason(force_bw, |limit| {
             format!(
                 "the residual force is {} of body weight (at most {}): motion, body and ground forces do not fit \
@@ -176,7 +176,7 @@ impl QualityEvidence<'_> {
     }
 
     fn residual_moment(&self) -> Option<QualityReason> {
-        let moment_nm_kg = self.verdict.residual_moment_nm_kg?;
+        let moment_nm_kg = self.verdict.fit.residual_moment_nm_kg?;
         Measure::ResidualMoment.reason(moment_nm_kg, |limit| {
             format!(
                 "the residual moment is {moment_nm_kg:.3} N.m/kg (at most {limit}): posture and centre of pressure do \
@@ -204,7 +204,7 @@ impl QualityEvidence<'_> {
         if self.is_too_short {
             return None;
         }
-        let share = (self.force_origin == ForceOrigin::Measured).then_some(self.verdict.complete_share)?;
+        let share = (self.force_origin == ForceOrigin::Measured).then_some(self.verdict.fit.complete_share)?;
         Measure::MeasuredForces.reason(share, |limit| {
             format!(
                 "the measured ground forces carry the body in {} of the motion (at least {}): they may not belong to \
@@ -317,7 +317,7 @@ impl QualityEvidence<'_> {
     }
 
     fn sliding(&self) -> Option<QualityReason> {
-        let speed_m_s = self.verdict.sliding_m_s?;
+        let speed_m_s = self.verdict.fit.sliding_m_s?;
         Measure::Sliding.reason(speed_m_s, |limit| {
             format!(
                 "soles that carry the body move along the ground at {speed_m_s:.3} m/s or more for three quarters of \
