@@ -96,7 +96,7 @@ fn the_setting_is_written(bench: &Workbench, stdout: &str, rows: &[serde_json::V
 fn a_claim_that_held_and_no_longer_does_gives_exit_code_1() {
     let bench = Workbench::empty("reproduce-check");
     // A long step is no slow walk.
-    bench.write("own.toml", "name = \"long\"\nholds = [\"c3\", \"e4\"]\n[gait]\nstandard_step_m = 0.75\n".to_owned());
+    bench.write("own.toml", "name = \"long\"\nholds = [\"c3\", \"e2\"]\n[gait]\nstandard_step_m = 0.75\n".to_owned());
     let check = ["reproduce", "--setting", "own.toml", "--brief", "--check", "--keep", "claims,setting", "-o", "own"];
     let run = bench.run(&check);
     assert_eq!(run.code, Some(1), "{}", run.stderr);

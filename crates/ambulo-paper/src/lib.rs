@@ -53,7 +53,9 @@ pub use harmonics::torque_series;
 pub use mode::{Footwear, Mode, Run, TrialSettings, paper_walk_with};
 pub use moving::{MovingFigure, MovingHead, MovingStick, moving_figure};
 pub use muscles::{MuscleRow, PHASES, muscle_table};
-pub use open_values::{GAITS, KNOT_RANGE, KNOTS, OpenKind, OpenValue, open_values};
+pub use open_values::{GAITS, KNOT_RANGE, KNOTS, open_values};
+#[doc(hidden)]
+pub use open_values::{OpenKind, OpenValue};
 pub use paper_human::{HEIGHT, MASS, paper_human};
 #[doc(hidden)]
 pub use paper_settings::PaperSettings;

@@ -97,7 +97,8 @@ impl Setting {
             let ids = holds.iter().map(|id| quoted(id)).collect::<Vec<String>>().join(", ");
             let _ = writeln!(
                 text,
-                "# Claims of the paper that hold with these values; a check fails if one of them does not.\nholds = [{ids}]"
+                "# Claims of the paper that hold with these values; a check fails if one of them does not.\nholds = \
+                 [{ids}]"
             );
         }
         let mut table = "";
