@@ -96,7 +96,7 @@ fn the_setting_is_written(bench: &Workbench, stdout: &str, rows: &[serde_json::V
 fn a_claim_that_held_and_no_longer_does_gives_exit_code_1() {
     let bench = Workbench::empty("reproduce-check");
     // A long step is no slow walk.
-    bench.write("own.toml", "name = \"long\"\nholds = [\"c3\", \"e2\"]\n[gait]\nstandard_step_m = 0.75\n".to_owned());
+    bench.write("own.toml", "name = \"long\"\nholds = [\"c3\", \"e2\"]\n[gait]\nstandard_step_m = 0.75\n");
     let check = ["reproduce", "--setting", "own.toml", "--brief", "--check", "--keep", "claims,setting", "-o", "own"];
     let run = bench.run(&check);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
@@ -107,11 +107,11 @@ fn a_claim_that_held_and_no_longer_does_gives_exit_code_1() {
 #[test]
 fn settings_that_cannot_be_used_are_refused() {
     let bench = Workbench::empty("reproduce-settings");
-    bench.write("own.toml", "[figure]\nstatur_m = 1.7\n".to_owned());
+    bench.write("own.toml", "[figure]\nstatur_m = 1.7\n");
     let refused = |words: &[&str], expected: &[&str]| bench.run(&[&["reproduce"], words].concat()).refused(expected);
     refused(&["--setting", "own.toml"], &["own.toml", "line 2", "unknown key", "did you mean `stature_m`?"]);
     refused(&["--setting", "nothing.toml"], &["nothing.toml", "papers-results, schwartz-children"]);
-    bench.write("own.toml", "[figure]\nstature_m = 1.7\n".to_owned());
+    bench.write("own.toml", "[figure]\nstature_m = 1.7\n");
     refused(&["--setting", "own.toml", "--check"], &["has no list `holds`", "setting.toml"]);
     bench.run(&["reproduce", "--setting", "own.toml", "--write-setting", "whole.toml"]).done();
     assert!(bench.text("whole.toml").contains("\nstature_m = 1.7\n"));

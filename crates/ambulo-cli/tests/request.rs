@@ -98,7 +98,7 @@ fn walks_are_computed_as_by_words() {
 fn scenes_and_events_are_computed_as_by_words() {
     let bench = Workbench::empty("request-scene");
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/pendulum.toml");
-    bench.write("scene.toml", &fs::read(scene).unwrap());
+    bench.write("scene.toml", fs::read(scene).unwrap());
     let words = ["simulate", "scene.toml", "--duration", "0.2", "--step", "0.002", "--keep", "energy,poses"];
     let request = json!({"simulate": {
         "scene": "scene.toml", "duration": 0.2, "step": 0.002, "keep": ["energy", "poses"],

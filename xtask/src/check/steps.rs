@@ -107,7 +107,8 @@ const COMPILED: [Step; 8] = [
             "doc",
             "--workspace",
             "--lib",
-            "--bins",
+            "--bin",
+            "xtask*", // the page of the command would take that of the library
             "--examples",
             "--no-deps",
             "--locked",
