@@ -148,8 +148,8 @@ fn the_torques_are_replayed(bench: &Workbench) {
 
 fn the_page_says_what_the_files_say(html: &str, claims: &[serde_json::Value]) {
     assert!(!html.contains("src=\"http") && !html.contains("href=\"http") && !html.contains("<script"));
-    // Seven figures, and four gaits in two modes.
-    assert_eq!(html.matches("<svg ").count(), 7 + 8);
+    // Seven figures, five of them again for the corrected mode, four gaits in two modes, and the speed of one.
+    assert_eq!(html.matches("<svg ").count(), 7 + 5 + 8 + 1);
     assert!(html.matches("<animate attributeName=\"d\"").count() == 8 * 5);
     let counted = || claims.iter().filter(|claim| claim["kind"] == "paper");
     let held = counted().filter(|claim| claim["pass"] == true).count();

@@ -85,11 +85,14 @@ fn text(line: &str, key: &str) -> Option<String> {
 pub(super) fn run_all(list: &Path, children: &Children, log: &mut File) -> Result<Option<f64>, String> {
     let list = std::fs::read_to_string(list).map_err(|e| format!("{}: {e}", list.display()))?;
     let mut cpu_s = Some(0.0);
+    // A test that waits for a program that it has started leaves its processor to one more.
+    let threads = std::thread::available_parallelism().map_or(2, |processors| processors.get() + 1).to_string();
     for program in Program::of_list(&list) {
         let cannot = |e: io::Error| format!("{}: {e}", program.file.display());
         writeln!(log, "     Running {} ({})", program.name, program.file.display()).map_err(cannot)?;
         // The output of tests that pass has the values that they measured and the recordings that were missing.
-        let mut command = behind_others(&program.command(&["--show-output", "--report-time"]));
+        let options = ["--show-output", "--report-time", "--test-threads", &threads];
+        let mut command = behind_others(&program.command(&options));
         command.stdout(log.try_clone().map_err(cannot)?).stderr(log.try_clone().map_err(cannot)?);
         let ended = children.run(&mut command).map_err(cannot)?;
         cpu_s = cpu_s.zip(ended.cpu_s).map(|(sum, more)| sum + more);
