@@ -52,7 +52,11 @@ const CASES: [(&str, Case, Case); 13] = [
     ),
     ("g1", &[("r_a_b", 0.9), ("least_r", 0.85)], &[("r_a_b", 0.9), ("least_r", 0.75)]),
     ("h2", &[("r_hip_knee", 0.9)], &[("r_hip_knee", 0.7)]),
-    ("h3", &[("hip_jumps_a_cycle", 4.0)], &[("hip_jumps_a_cycle", 5.0)]),
+    (
+        "h3",
+        &[("hip_jumps_a_cycle", 4.0), ("knee_jumps_a_cycle", 0.0), ("ankle_jumps_a_cycle", 1.0)],
+        &[("hip_jumps_a_cycle", 4.0), ("knee_jumps_a_cycle", 5.0), ("ankle_jumps_a_cycle", 1.0)],
+    ),
     (
         "h4",
         &[
