@@ -51,7 +51,7 @@ const RESULTS: [Figure; 5] = [
             the \
             ankle have lower values.",
         here: "Impulses of foot impacts are not part of the torques.",
-        corrected: "The scale of the torques is smaller: they are those of measured walking.",
+        corrected: "Note the scale: the torques are smaller.",
         claims: &["a1", "a2", "b", "c1", "c2", "h1", "h2", "h3", "h4", "m2"],
     },
     Figure {
