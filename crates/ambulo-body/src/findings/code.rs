@@ -77,6 +77,9 @@ codes! {
     MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
         "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
+    MotionLengthUnit "motion.length_unit" Warning
+        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or centimetres."
+        "State the unit of the positions, or convert them to metres.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
         "Nothing to do.";
@@ -580,14 +583,24 @@ codes! {
          energy); the nearest consistent velocities are used."
         "Give velocities that the joints allow, or only the rates of their coordinates.";
     EnergyRose "energy.rose" Warning
-        "The mechanical energy rose above that of the start although nothing drives the scene."
+        "The mechanical energy rose above that of the start, or of the last event, although nothing drives the scene."
         "Use a smaller time step, and remove overlaps and contradictory constraints.";
+    ClosureOpen "closure.open" Warning
+        "A loop closure stays open although it had the time to close: its points or axes cannot meet."
+        "Check where the closure is fixed, and whether joints, drives and obstacles let its points meet.";
+    BodyTooFast "body.too_fast" Warning
+        "A body moves further in a time step than its own size, near a thin obstacle or another body; it may pass \
+         through."
+        "Use a smaller time step, or thicker obstacles.";
     ContactDeepOverlap "contact.deep_overlap" Warning
         "Two surfaces overlap deeply at the start and are pushed apart."
         "Correct the initial positions.";
     SolverNotConverged "solver.not_converged" Warning
         "The constraints of a time step could not all be satisfied."
         "Use a smaller time step, or remove constraints that contradict each other.";
+    SolverWorkLimit "solver.work_limit" Warning
+        "The work of a time step was used up before its constraints were satisfied; the nearest forces were used."
+        "Use a smaller time step, and avoid masses, sizes and distances that differ by many orders of magnitude.";
     ContactNotRound "contact.not_round" Warning
         "Two bodies pass through each other, because their contact law needs a sphere or a capsule."
         "Use the regularised law.";
