@@ -519,6 +519,16 @@ codes! {
     RefitNone "refit.none" Warning
         "No foot is at rest on the floor, so the refit changed nothing."
         "Check axes and units of the motion, and that feet touch the ground.";
+    PredictionOtherPerson "prediction.other_person" Warning
+        "The calibration of the predicted forces and the recording name different persons; the calibration was used."
+        "Calibrate with trials of this person, or correct the name of the subject in the files.";
+    PredictionCalibrationUnusual "prediction.calibration_unusual" Warning
+        "The calibration changes the predicted forces by more than three of their standard deviations, more than people \
+         differ."
+        "Check the trials of the calibration: force plates, markers and mass.";
+    PredictionCalibrationWorse "prediction.calibration_worse" Warning
+        "Force plates of this recording show larger errors with the calibration than without it."
+        "Leave the calibration out, or calibrate with trials of this person and this laboratory.";
     PredictionUntested "prediction.untested" Warning
         "The prediction of ground forces was never compared with force plates in this activity."
         "Use force plates, or treat ground forces and joint moments as estimates.";
@@ -586,7 +596,7 @@ codes! {
         "The mechanical energy rose above that of the start, or of the last event, although nothing drives the scene."
         "Use a smaller time step, and remove overlaps and contradictory constraints.";
     ClosureOpen "closure.open" Warning
-        "A loop closure stays open although it had the time to close: its points or axes cannot meet."
+        "A loop closure is open although it had the time to close, or at the end: its points or axes cannot meet."
         "Check where the closure is fixed, and whether joints, drives and obstacles let its points meet.";
     BodyTooFast "body.too_fast" Warning
         "A body moves further in a time step than its own size, near a thin obstacle or another body; it may pass \

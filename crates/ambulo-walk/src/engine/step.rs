@@ -29,8 +29,8 @@ const MOST_IMPACTS: usize = 8;
 const BISECTIONS: usize = 50;
 
 /// Iterations of the solver in the smooth parts of one step, and in the search for an instant of contact; the rest of
-/// the step is then one of impulses. Eight impacts with 52 trials of four stages each need 2 to 10 each.
-const MOST_ITERATIONS: usize = 20_000;
+/// the step is then one of impulses. An impact is found by 52 trials of four stages, which take 2 to 10 iterations each.
+const MOST_ITERATIONS: usize = 8_000;
 /// Overlap at which an instant of contact ends a part of a step of impulses [m].
 const OVERLAP_M: f64 = 1e-9;
 

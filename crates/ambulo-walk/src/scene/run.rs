@@ -220,6 +220,7 @@ impl Scene {
         if self.is_seen() {
             self.show_end(impacts, &mut visit)?;
         }
+        self.checks.end(&self.world, &self.state, findings);
         Ok(statistics)
     }
 

@@ -48,6 +48,8 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// Filters and time range that were used.
     pub processing: Processing,
+    /// Checksum of the name of the person in the file of the recording, if it has one.
+    pub subject: Option<u64>,
 }
 
 /// Filters and time range that were used.

@@ -95,6 +95,7 @@ fn road(
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
     let computed = Computed {
+        subject: origin.subject(),
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
         device: device.map(|device| worn(&device, &analysis, findings)),
         partly_measured: origin.partly_measured(),
@@ -118,6 +119,8 @@ fn road(
 
 /// Everything that was computed, before it is judged.
 struct Computed {
+    /// Checksum of the name of the person in the file.
+    subject: Option<u64>,
     body: Model,
     person: Person,
     analysis: Analysis,
@@ -181,6 +184,7 @@ impl Computed {
             device: self.device,
             verdict,
             processing: Processing::of(&processing),
+            subject: self.subject,
         }
     }
 }
