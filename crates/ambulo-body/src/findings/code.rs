@@ -552,13 +552,14 @@ codes! {
         "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
-        "Residual reduction did not converge."
-        "Interpret the results with care; wider tolerances may help.";
+        "Residual reduction did not converge, so the motion was not changed."
+        "Check mass, body and forces; wider tolerances may help.";
     TrackingResidualLeft "tracking.residual_left" Warning
         "Tracking did not remove the residual forces: more than 0.5 % of body weight is left at the root."
         "Choose a shorter time; check the size of the body, and whether anything but the feet supports the person.";
     TrackingLargeChange "tracking.large_change" Warning
-        "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."
+        "Tracking changed the rotations by more than 5 degrees (rms), or one of them by more than 20: more than the \
+         error of recorded motions."
         "Check mass, body and the motion of the feet; use predicted forces instead.";
     FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
         "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a \

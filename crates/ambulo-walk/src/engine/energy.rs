@@ -45,7 +45,12 @@ impl EnergyWatch {
     pub(crate) fn new(world: &World, state: &WorldState) -> Option<EnergyWatch> {
         let energy = energy(world, state);
         let least = LIFTED_M * world.mass() * world.gravity.norm();
-        is_passive(world).then_some(EnergyWatch { start: energy.total(), kinetic: energy.kinetic, start_s: state.time_s, least })
+        is_passive(world).then_some(EnergyWatch {
+            start: energy.total(),
+            kinetic: energy.kinetic,
+            start_s: state.time_s,
+            least,
+        })
     }
 
     /// Returns whether the energy has risen, and reports it.

@@ -155,7 +155,8 @@ fn in_the_way(world: &World, state: &WorldState, surface: &Surface, way: Vec3) -
         other.owner != surface.owner
             && other.shape.half_size().is_finite()
             && may_touch(world, &parents, surface, other)
-            && bounds(world, state, other).is_some_and(|(from, to)| (0..3).all(|k| from[k] <= high[k] && low[k] <= to[k]))
+            && bounds(world, state, other)
+                .is_some_and(|(from, to)| (0..3).all(|k| from[k] <= high[k] && low[k] <= to[k]))
     };
     world.surfaces.iter().find(is_near).map(|other| other.owner)
 }

@@ -18,8 +18,8 @@ use crate::analysis::{
     AnalysisError, BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
 };
 use crate::findings::{Code, Findings};
-use crate::ground::predict::checksum;
 use crate::ground::plates::{ContactQuality, PlateContact};
+use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;

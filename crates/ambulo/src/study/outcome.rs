@@ -78,6 +78,8 @@ pub struct TrackedGround {
     pub residual: (f64, f64),
     /// Root mean square of the changes of rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
+    /// Largest change of each rotation [rad], by the name of its coordinate.
+    pub turned: Vec<(String, f64)>,
     /// Steps of the solver.
     pub steps: usize,
     /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured

@@ -128,7 +128,8 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
         let weight_n = measured.mass.kg * model.gravity().norm();
         for stance in compared.iter().filter(|stance| !stance.samples.is_empty()) {
             stances[stance.side] += 1;
-            deviations[stance.side].extend(stance.samples.iter().map(|sample| sample.deviation.map(|sd| sd / weight_n)));
+            deviations[stance.side]
+                .extend(stance.samples.iter().map(|sample| sample.deviation.map(|sd| sd / weight_n)));
             let errors = stance.errors(weight_n, stature.height_m);
             samples[stance.side].iter_mut().zip(errors).for_each(|(all, own)| all.extend(own));
         }

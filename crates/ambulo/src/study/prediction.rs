@@ -5,8 +5,8 @@ use super::observation::{Followed, Observation, Origin};
 use super::outcome::PredictedGround;
 use super::settings::Settings;
 use crate::analysis::{
-    self, Analysis, AnalysisError, CheckSettings, ComparedAnalyses, MassSource, PlateCoverage, PredictedAnalysis, PredictionInput,
-    Progress, Stage, compared_stances, predict_and_analyse, weighed_standing, weighed_within,
+    self, Analysis, AnalysisError, CheckSettings, ComparedAnalyses, MassSource, PlateCoverage, PredictedAnalysis,
+    PredictionInput, Progress, Stage, compared_stances, predict_and_analyse, weighed_standing, weighed_within,
 };
 use crate::findings::{Code, Findings};
 use crate::ground::predict::PersonalErrors;

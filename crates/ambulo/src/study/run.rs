@@ -474,7 +474,7 @@ fn residual_reduced(
     let processing = analysis::AnalysisSettings { instrumented, ..processing };
     let (analysis, reduced) = reduce_residual(model, analysis, &processing, adjustable, findings)?;
     progress.end(Stage::ResidualReduction)?;
-    Ok((analysis, Some(reduced)))
+    Ok((analysis, reduced))
 }
 
 fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {

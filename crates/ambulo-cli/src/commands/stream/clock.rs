@@ -77,7 +77,8 @@ impl Clock {
         // Frames that are many periods apart are in another unit, even if the rate is wrong too.
         let is_near = |unit: f64| self.intervals.iter().all(|periods| (0.3..3.2).contains(&(periods / unit)));
         let is_even = |first: f64| self.intervals.iter().all(|periods| (periods / first - 1.0).abs() < NEAR);
-        let (name, unit) = UNITS.into_iter().find(|(_, unit)| enough && is_near(*unit) && is_even(self.intervals[0]))?;
+        let (name, unit) =
+            UNITS.into_iter().find(|(_, unit)| enough && is_near(*unit) && is_even(self.intervals[0]))?;
         self.per_second = unit;
         self.intervals.clear();
         Some(ClockDoubt::Unit(name))
@@ -96,7 +97,6 @@ impl Clock {
         let is_usual = |periods: &&f64| **periods < LOSS * middle;
         let usual: Vec<f64> = self.intervals.iter().filter(is_usual).copied().collect();
         let mean = usual.iter().sum::<f64>() / usual.len() as f64;
-        ((mean - 1.0).abs() > OTHER_RATE && 2 * usual.len() > count)
-            .then(|| ClockDoubt::Rate(self.rate_hz / mean))
+        ((mean - 1.0).abs() > OTHER_RATE && 2 * usual.len() > count).then(|| ClockDoubt::Rate(self.rate_hz / mean))
     }
 }

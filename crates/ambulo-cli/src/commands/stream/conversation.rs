@@ -325,9 +325,7 @@ impl<'a> Conversation<'a> {
             matches!(code, Code::MotionDegreesAsRadians | Code::MotionRadiansAsDegrees | Code::MotionLengthUnit)
         };
         let is_fitted = matches!(self.frames, FrameKind::Markers(_));
-        let is_new = |finding: &&Finding| {
-            !(self.doubted.contains(&finding.code) || is_fitted && is_unit(finding.code))
-        };
+        let is_new = |finding: &&Finding| !(self.doubted.contains(&finding.code) || is_fitted && is_unit(finding.code));
         let Some(finding) = self.stream.doubts().as_slice().iter().find(is_new).cloned() else { return };
         self.doubted.push(finding.code);
         self.notice(finding.code.name(), None, finding.message);
@@ -483,9 +481,9 @@ impl<'a> Conversation<'a> {
         self.survive(finished)?;
         let Counts { frames, results, notices, first_refusal } = std::mem::take(&mut self.counts);
         self.unused = match first_refusal {
-            Some(refusal) if results == 0 => Some(format!(
-                "no frame could be used, because messages were refused; the first: {refusal}"
-            )),
+            Some(refusal) if results == 0 => {
+                Some(format!("no frame could be used, because messages were refused; the first: {refusal}"))
+            }
             _ => None,
         };
         let notices: String = notices.iter().map(|(kind, count)| format!(", {count} x {kind}")).collect();

@@ -11,7 +11,13 @@ const MARKS: [&[u8]; 3] = [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"];
 pub fn text(line: &[u8]) -> Cow<'_, [u8]> {
     let marked = MARKS.iter().find_map(|mark| line.strip_prefix(*mark)).unwrap_or(line);
     match is_wide(line) {
-        true => marked.iter().filter(|byte| **byte != 0).map(|byte| char::from(*byte)).collect::<String>().into_bytes().into(),
+        true => marked
+            .iter()
+            .filter(|byte| **byte != 0)
+            .map(|byte| char::from(*byte))
+            .collect::<String>()
+            .into_bytes()
+            .into(),
         false => marked.into(),
     }
 }

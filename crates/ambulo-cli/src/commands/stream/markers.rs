@@ -67,7 +67,17 @@ impl MarkerFrames {
         }
         let fit = fit(model, &names, rate_hz, &mut Findings::default())?;
         let (attached, positions) = (attached(model, &names), Vec::new());
-        Ok(MarkerFrames { attached, names, unit, axes, rate_hz, fit, positions, correction: None, upright: Some(Vec::new()) })
+        Ok(MarkerFrames {
+            attached,
+            names,
+            unit,
+            axes,
+            rate_hz,
+            fit,
+            positions,
+            correction: None,
+            upright: Some(Vec::new()),
+        })
     }
 
     /// Number of values of a frame.

@@ -133,7 +133,8 @@ impl PersonalErrors {
         if let Some(subject) = self.subject {
             let _ = writeln!(text, "subject = \"{subject:016x}\" # checksum of the name in the files");
         }
-        let _ = writeln!(text, "excess = {:.4} # largest mean error, in standard deviations of the estimate", self.excess);
+        let _ =
+            writeln!(text, "excess = {:.4} # largest mean error, in standard deviations of the estimate", self.excess);
         for (side, errors) in self.errors.iter() {
             let _ = write!(text, "\n[{side}]\n");
             let curves = errors.force.iter().chain(&errors.center);
@@ -153,7 +154,17 @@ impl PersonalErrors {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
-        root.only(&[&["mass_kg", "stature_m", "leg_length_m", "stances", "estimator", "subject", "excess", "right", "left"]])?;
+        root.only(&[&[
+            "mass_kg",
+            "stature_m",
+            "leg_length_m",
+            "stances",
+            "estimator",
+            "subject",
+            "excess",
+            "right",
+            "left",
+        ]])?;
         let size = |key: &str, what: &str| root.need(key, what)?.above_zero();
         let count = "stances of the right and the left foot";
         let stances = root.need("stances", count)?;
@@ -162,9 +173,8 @@ impl PersonalErrors {
             return Err(stances.wrong("two whole numbers, one of them at least 1"));
         }
         let of_estimator = root.need("estimator", "the estimate whose errors these are, 16 hexadecimal digits")?;
-        let hexadecimal = |value: Value<'_>| {
-            u64::from_str_radix(value.text()?, 16).map_err(|_| value.wrong("16 hexadecimal digits"))
-        };
+        let hexadecimal =
+            |value: Value<'_>| u64::from_str_radix(value.text()?, 16).map_err(|_| value.wrong("16 hexadecimal digits"));
         let subject = root.get("subject").map(hexadecimal).transpose()?;
         let foot = |side: &str| -> Result<StanceErrors, TomlError> {
             let table = root.need(side, "the curves of this foot")?.table("the curves of this foot")?;
