@@ -78,7 +78,8 @@ codes! {
         "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
     MotionLengthUnit "motion.length_unit" Warning
-        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or centimetres."
+        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or \
+         centimetres."
         "State the unit of the positions, or convert them to metres.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
@@ -523,7 +524,8 @@ codes! {
         "The calibration of the predicted forces and the recording name different persons; the calibration was used."
         "Calibrate with trials of this person, or correct the name of the subject in the files.";
     PredictionCalibrationUnusual "prediction.calibration_unusual" Warning
-        "The calibration changes the predicted forces by more than three of their standard deviations, more than people \
+        "The calibration changes the predicted forces by more than three of their standard deviations, more than \
+         people \
          differ."
         "Check the trials of the calibration: force plates, markers and mass.";
     PredictionCalibrationWorse "prediction.calibration_worse" Warning
