@@ -486,6 +486,13 @@ codes! {
     GroundPredicted "ground.predicted" Note
         "Without measured forces the ground forces are predicted from the motion."
         "Give measured forces if there are any.";
+    StancesPredicted "stances.predicted" Note
+        "A loaded foot was not on a force plate, or only in part; moments, powers and reactions have predicted ground \
+         forces there."
+        "Nothing to do; `stances.csv` and the columns `ground_source` list these times.";
+    StancesUnknown "stances.unknown" Warning
+        "A loaded foot was not on a force plate, and its load cannot be predicted reliably."
+        "Choose the time in which every loaded foot is on a plate; `stances.csv` lists the others.";
     ComparisonNone "comparison.none" Warning
         "No foot was alone and wholly on a plate, so the prediction could not be compared with force plates."
         "Nothing to do.";

@@ -40,6 +40,8 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
+    /// Whether the forces are those of the force plates of the recording.
+    pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
@@ -172,6 +174,7 @@ impl Statements {
             person,
             forces: loads,
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Simulation { rule },
             known_mass,
             device: self.device,
@@ -250,7 +253,9 @@ impl Statements {
             }
         };
         let known_mass = KnownMass::stated(self.stated.mass_kg);
-        let observation = Observation { person, model, forces, idle, origin, known_mass, device: self.device };
+        let device = self.device;
+        let observation =
+            Observation { person, model, forces, idle, origin, is_from_plates: false, known_mass, device };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
@@ -274,6 +279,7 @@ impl Statements {
             model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
@@ -309,6 +315,7 @@ impl Statements {
             person: body.subject.person.clone(),
             forces,
             idle,
+            is_from_plates: matches!(self.forces, MeasuredForces::InRecording),
             known_mass: known,
             origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events })),
             device: self.device,

@@ -3,6 +3,7 @@
 use super::error::StudyError;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
+use super::measured::{Measured, StanceLoads, measured};
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
@@ -15,14 +16,15 @@ use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
-    analyse_with_progress, reduce_residual, times_and_distances,
+    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured, reduce_residual,
+    times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
-use crate::ground::footfalls::{Footfalls, footfalls};
+use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
+use crate::ground::stances::{Stance, StanceSource};
 use crate::model::Model;
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
@@ -87,7 +89,7 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let Found { analysis, prediction, measured_events } =
+    let Found { analysis, prediction, measured_events, loads, processing } =
         forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let Observation { model, person, origin, idle, .. } = observed;
@@ -103,6 +105,7 @@ fn road(
         person,
         analysis,
         prediction,
+        loads,
         reduction,
         mass,
         idle,
@@ -122,6 +125,8 @@ struct Computed {
     person: Person,
     analysis: Analysis,
     prediction: Option<PredictedGround>,
+    /// The stances of measured forces.
+    loads: Option<StanceLoads>,
     reduction: Option<ReducedMotion>,
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
@@ -140,7 +145,8 @@ impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
         let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), processing);
+        let loads = self.loads.as_ref();
+        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
         let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
         let judged = Judged {
             activity: activity.kind,
@@ -166,7 +172,11 @@ impl Computed {
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
         };
+        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
+        let rule = loads.and_then(StanceLoads::rule);
         Outcome {
+            stances: listed,
+            completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
             quality: evidence.quality(),
             mass: mass.after_reduction(body.mass()),
             tracking,
@@ -175,7 +185,7 @@ impl Computed {
             body,
             person,
             analysis,
-            force_origin,
+            force_origin: rule.map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
             prediction,
             residual_reduction: self.reduction,
             device: self.device,
@@ -226,9 +236,11 @@ fn stances<'p>(
     person: &Person,
     analysis: &Analysis,
     prediction: Option<&'p PredictedGround>,
+    loads: Option<&'p StanceLoads>,
     processing: analysis::AnalysisSettings,
 ) -> Cow<'p, Footfalls> {
-    let known = prediction.and_then(|found| found.stances(analysis, processing));
+    let of_measured = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let known = prediction.and_then(|found| found.stances(analysis, processing)).or(of_measured);
     let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
@@ -419,24 +431,38 @@ fn forces(
     progress: &mut Progress<'_>,
 ) -> Result<Found, StudyError> {
     let Observation { model, forces, .. } = observation;
-    let (analysis, measured_events) = match motion {
+    match motion {
         ObservedMotion::Complete(trajectory) => {
             let source = ForceSource::Simulated;
-            (analyse_measured(model, trajectory, forces, source, findings, progress)?, Vec::new())
+            let analysis = analyse_measured(model, trajectory, forces, source, findings, progress)?;
+            Ok(Found { analysis, prediction: None, measured_events: Vec::new(), loads: None, processing })
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
             let found = predicted(observation, motion, processing, settings, findings, progress)?;
-            return match settings.ground {
+            match settings.ground {
                 GroundSettings::Tracked => tracked(found, observation, findings, progress),
                 _ => Ok(found),
-            };
+            }
         }
         ObservedMotion::Recorded(motion) => {
-            let analysis = analyse_with_progress(model, &motion, forces, processing, findings, progress)?;
-            with_markers(analysis, observation)
+            let Measured { analysis, loads, processing } =
+                measured(observation, &motion, processing, settings, findings, progress)?;
+            let (analysis, measured_events) = with_markers(analysis, observation);
+            Ok(Found { analysis, prediction: None, measured_events, loads: Some(loads), processing })
         }
+    }
+}
+
+/// The stances of predicted forces; none of other forces.
+fn stances_of(analysis: &Analysis, prediction: Option<&PredictedGround>) -> Vec<Stance> {
+    let Some(found) = prediction else { return Vec::new() };
+    let grid = analysis.trajectory.grid();
+    let (first, last) = (grid.start_s, grid.end_s());
+    let stance = |fall: &Footfall| {
+        let span = [fall.strike_s.unwrap_or(first), fall.off_s.unwrap_or(last)];
+        Stance::within(fall.side, span, StanceSource::Predicted, grid)
     };
-    Ok(Found { analysis, prediction: None, measured_events })
+    found.prediction.footfalls.falls.iter().filter_map(stance).collect()
 }
 
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {
