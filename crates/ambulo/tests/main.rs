@@ -149,6 +149,7 @@ mod skeleton_recording;
 mod smpl_motions;
 mod splines;
 mod stance_heights;
+mod stance_loads;
 mod standing_ground;
 mod statistics;
 mod study_force_columns;

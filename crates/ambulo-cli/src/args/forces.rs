@@ -31,15 +31,15 @@ a .mvnx (Xsens) drive the built-in body directly. A .sto with quaternions (OpenS
 built-in body of --mass and --height; --static is then a .sto of the person standing. A .b3d has its own model
 and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is
 given. docs/MARKERS.md lists the marker names. If ground forces were not measured, they are predicted from the
-motion; with --predict, the prediction is compared with the measurement. With --track, motion and forces agree
-to rounding, without force plates.
+motion, also for single steps alongside the plates (stances.csv lists them); with --predict, the prediction is
+compared with the measurement. With --track, motion and forces agree to rounding, without force plates.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json, report.html (open it
-with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device moments_biological.sto; with
-predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The results of an
-earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
-writes only some of them; summary.json is always written.
+events.csv, stances.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json,
+report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device
+moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates
+grf_measured.mot. The results of an earlier run in DIR are replaced as a whole; other files stay.
+docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is always written.
 
 The verdict states whether a person could make this motion (strength, joint ranges, power, friction, centre of
 pressure, sliding, flight, residual forces; docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if

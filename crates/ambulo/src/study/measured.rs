@@ -160,6 +160,11 @@ impl StanceLoads {
         Some(Analysis { ground, forces, ..analysis.clone() })
     }
 
+    /// Whether loads are missing.
+    pub(super) fn are_incomplete(&self) -> bool {
+        !self.missing.is_empty()
+    }
+
     /// How predicted forces were divided between the feet in double support.
     pub(super) fn rule(&self) -> Option<&'static str> {
         let is_used = self.stances.iter().any(|stance| stance.source == StanceSource::Predicted);

@@ -165,6 +165,7 @@ impl Computed {
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
             is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
             force_origin,
+            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,
             mass: &mass,

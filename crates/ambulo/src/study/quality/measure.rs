@@ -19,6 +19,8 @@ pub enum Measure {
     GroundForces,
     /// Share of the motion with measured ground forces.
     MeasuredForces,
+    /// Whether there is no time in which the measured forces can be compared with the motion.
+    UncheckedForces,
     /// Share of the measured load that lies under no foot.
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
@@ -66,11 +68,12 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 21] = [
+    pub const ALL: [Measure; 22] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
+        Measure::UncheckedForces,
         Measure::UnassignedForces,
         Measure::SilentPlates,
         Measure::MarkerFit,
@@ -99,6 +102,7 @@ impl Measure {
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
+            Measure::UncheckedForces => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
             Measure::MarkerFit => AtMost(0.02, 0.04),
@@ -135,6 +139,10 @@ impl Measure {
             Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
+            Measure::UncheckedForces => {
+                "1 if forces were measured, but at no time those of all loaded feet, so that they cannot be compared \
+                 with the motion"
+            }
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
@@ -186,6 +194,7 @@ impl Measure {
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
             | Measure::MeasuredForces
+            | Measure::UncheckedForces
             | Measure::UnassignedForces
             | Measure::SilentPlates
             | Measure::ScaleFactors

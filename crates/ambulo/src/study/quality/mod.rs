@@ -134,6 +134,8 @@ pub(super) struct QualityEvidence<'a> {
     /// Whether no frame remains without the ends of the motion, which are not measured.
     pub(super) is_too_short: bool,
     pub(super) force_origin: ForceOrigin,
+    /// Whether forces were measured, but at no time those of all loaded feet.
+    pub(super) is_never_complete: bool,
     pub(super) tracking: Option<&'a Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     pub(super) place_is_derived: bool,
@@ -149,7 +151,7 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
@@ -212,6 +214,16 @@ impl QualityEvidence<'_> {
                 percent(share),
                 percent(limit)
             )
+        })
+    }
+
+    /// Where no residual can be computed, nothing shows that the forces belong to the motion.
+    fn unchecked_forces(&self) -> Option<QualityReason> {
+        let value = if self.is_never_complete { 1.0 } else { 0.0 };
+        Measure::UncheckedForces.reason(value, |_| {
+            "forces were measured, but at no time those of all loaded feet: the residual cannot be computed, and \
+             nothing shows that forces and motion belong together"
+                .to_owned()
         })
     }
 
