@@ -132,6 +132,7 @@ mod residual_reduction_synthetic;
 mod retarget;
 mod rig;
 mod scaling;
+mod scene_checks;
 mod scene_file;
 mod scene_run;
 mod scene_start;

@@ -77,6 +77,9 @@ codes! {
     MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
         "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
+    MotionLengthUnit "motion.length_unit" Warning
+        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or centimetres."
+        "State the unit of the positions, or convert them to metres.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
         "Nothing to do.";
@@ -523,6 +526,16 @@ codes! {
     RefitNone "refit.none" Warning
         "No foot is at rest on the floor, so the refit changed nothing."
         "Check axes and units of the motion, and that feet touch the ground.";
+    PredictionOtherPerson "prediction.other_person" Warning
+        "The calibration of the predicted forces and the recording name different persons; the calibration was used."
+        "Calibrate with trials of this person, or correct the name of the subject in the files.";
+    PredictionCalibrationUnusual "prediction.calibration_unusual" Warning
+        "The calibration changes the predicted forces by more than three of their standard deviations, more than people \
+         differ."
+        "Check the trials of the calibration: force plates, markers and mass.";
+    PredictionCalibrationWorse "prediction.calibration_worse" Warning
+        "Force plates of this recording show larger errors with the calibration than without it."
+        "Leave the calibration out, or calibrate with trials of this person and this laboratory.";
     PredictionUntested "prediction.untested" Warning
         "The prediction of ground forces was never compared with force plates in this activity."
         "Use force plates, or treat ground forces and joint moments as estimates.";
@@ -546,13 +559,14 @@ codes! {
         "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
-        "Residual reduction did not converge."
-        "Interpret the results with care; wider tolerances may help.";
+        "Residual reduction did not converge, so the motion was not changed."
+        "Check mass, body and forces; wider tolerances may help.";
     TrackingResidualLeft "tracking.residual_left" Warning
         "Tracking did not remove the residual forces: more than 0.5 % of body weight is left at the root."
         "Choose a shorter time; check the size of the body, and whether anything but the feet supports the person.";
     TrackingLargeChange "tracking.large_change" Warning
-        "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."
+        "Tracking changed the rotations by more than 5 degrees (rms), or one of them by more than 20: more than the \
+         error of recorded motions."
         "Check mass, body and the motion of the feet; use predicted forces instead.";
     FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
         "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a \
@@ -587,14 +601,24 @@ codes! {
          energy); the nearest consistent velocities are used."
         "Give velocities that the joints allow, or only the rates of their coordinates.";
     EnergyRose "energy.rose" Warning
-        "The mechanical energy rose above that of the start although nothing drives the scene."
+        "The mechanical energy rose above that of the start, or of the last event, although nothing drives the scene."
         "Use a smaller time step, and remove overlaps and contradictory constraints.";
+    ClosureOpen "closure.open" Warning
+        "A loop closure is open although it had the time to close, or at the end: its points or axes cannot meet."
+        "Check where the closure is fixed, and whether joints, drives and obstacles let its points meet.";
+    BodyTooFast "body.too_fast" Warning
+        "A body moves further in a time step than its own size, near a thin obstacle or another body; it may pass \
+         through."
+        "Use a smaller time step, or thicker obstacles.";
     ContactDeepOverlap "contact.deep_overlap" Warning
         "Two surfaces overlap deeply at the start and are pushed apart."
         "Correct the initial positions.";
     SolverNotConverged "solver.not_converged" Warning
         "The constraints of a time step could not all be satisfied."
         "Use a smaller time step, or remove constraints that contradict each other.";
+    SolverWorkLimit "solver.work_limit" Warning
+        "The work of a time step was used up before its constraints were satisfied; the nearest forces were used."
+        "Use a smaller time step, and avoid masses, sizes and distances that differ by many orders of magnitude.";
     ContactNotRound "contact.not_round" Warning
         "Two bodies pass through each other, because their contact law needs a sphere or a capsule."
         "Use the regularised law.";

@@ -7,11 +7,11 @@ use crate::model::{Coordinate, CoordinateKind, Model};
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
-const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
+pub(super) const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
 /// If all angles under a header that states degrees are smaller than this [deg], they were written in radians.
-const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
+pub(super) const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
 /// Smallest number of moving rotations for this test.
-const ENOUGH_ROTATIONS: usize = 4;
+pub(super) const ENOUGH_ROTATIONS: usize = 4;
 
 /// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
 /// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.

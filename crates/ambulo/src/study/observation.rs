@@ -19,6 +19,7 @@ use crate::analysis::{
 };
 use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
+use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;
@@ -81,6 +82,8 @@ pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
     pub(super) listed: Vec<Event>,
+    /// Checksum of the name of the person in the file; names stay out of the results.
+    pub(super) subject: Option<u64>,
 }
 
 impl Observation {
@@ -109,6 +112,11 @@ impl Observation {
 }
 
 impl Origin {
+    /// Checksum of the name of the person in the file.
+    pub(super) fn subject(&self) -> Option<u64> {
+        self.followed()?.subject
+    }
+
     pub(super) fn followed(&self) -> Option<&Followed> {
         match self {
             Origin::Markers(followed) => Some(followed),
@@ -192,9 +200,10 @@ impl Statements {
         let is_measured =
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
-        let model = self.loaded(self.stated.applied(model, findings)?)?;
-        let of_model = Person::of_model(&model);
-        let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
+        let model = self.stated.applied(model, findings)?;
+        // A load makes nobody stronger.
+        let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
+        let model = self.loaded(model)?;
         self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)
     }
 
@@ -301,9 +310,7 @@ impl Statements {
         let known = KnownMass::of_markers(&markers);
         let markers = self.with_known_mass(markers, &known, settings, findings)?;
         let mut body = self.follow(&markers, settings, findings, progress)?;
-        if !matches!(markers.body, MarkerBody::Model { .. }) {
-            body.subject.model = self.loaded(body.subject.model)?;
-        }
+        body.subject.model = self.loaded(body.subject.model)?;
         let (forces, mut idle) = self.forces_under(&body, settings, findings)?;
         if matches!(self.forces, MeasuredForces::InRecording) && settings.ground != GroundSettings::NoContact {
             idle = IdleForces::of_plates(&body, &markers);
@@ -317,7 +324,11 @@ impl Statements {
             idle,
             is_from_plates: matches!(self.forces, MeasuredForces::InRecording),
             known_mass: known,
-            origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events })),
+            origin: Origin::Markers(Box::new(Followed {
+                body,
+                listed: markers.trial.events,
+                subject: markers.trial.subject.name.as_deref().map(|name| checksum(&plain(name))),
+            })),
             device: self.device,
         };
         Ok((observation, ObservedMotion::Recorded(motion)))
@@ -404,7 +415,7 @@ impl Statements {
                     true => StatedSize::default(),
                     false => StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m },
                 };
-                model = self.loaded(size.applied(given, findings)?)?;
+                model = size.applied(given, findings)?;
                 BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
@@ -438,12 +449,17 @@ impl Statements {
 /// results.
 fn report_other_person(moving: &SubjectParameters, standing: &SubjectParameters, findings: &mut Findings) {
     if let (Some(moving), Some(standing)) = (&moving.name, &standing.name)
-        && !moving.trim().eq_ignore_ascii_case(standing.trim())
+        && plain(moving) != plain(standing)
     {
         let message = "the file of the standing trial names another person (SUBJECTS:NAMES) than that of the \
             recording; its body was used";
         findings.report(Code::CalibrationOtherPerson, message);
     }
+}
+
+/// A name without what its writers may vary.
+fn plain(name: &str) -> String {
+    name.trim().to_ascii_lowercase()
 }
 
 /// A mass for a body that is only there to be weighed [kg].

@@ -53,6 +53,8 @@ pub struct Outcome {
     pub(super) completed: Option<Analysis>,
     /// Filters and time range that were used.
     pub processing: Processing,
+    /// Checksum of the name of the person in the file of the recording, if it has one.
+    pub subject: Option<u64>,
 }
 
 /// Filters and time range that were used.
@@ -81,6 +83,8 @@ pub struct TrackedGround {
     pub residual: (f64, f64),
     /// Root mean square of the changes of rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
+    /// Largest change of each rotation [rad], by the name of its coordinate.
+    pub turned: Vec<(String, f64)>,
     /// Steps of the solver.
     pub steps: usize,
     /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured

@@ -97,6 +97,7 @@ fn road(
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
     let computed = Computed {
+        subject: origin.subject(),
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
         device: device.map(|device| worn(&device, &analysis, findings)),
         partly_measured: origin.partly_measured(),
@@ -121,6 +122,8 @@ fn road(
 
 /// Everything that was computed, before it is judged.
 struct Computed {
+    /// Checksum of the name of the person in the file.
+    subject: Option<u64>,
     body: Model,
     person: Person,
     analysis: Analysis,
@@ -192,6 +195,7 @@ impl Computed {
             device: self.device,
             verdict,
             processing: Processing::of(&processing),
+            subject: self.subject,
         }
     }
 }
@@ -497,7 +501,7 @@ fn residual_reduced(
     let processing = analysis::AnalysisSettings { instrumented, ..processing };
     let (analysis, reduced) = reduce_residual(model, analysis, &processing, adjustable, findings)?;
     progress.end(Stage::ResidualReduction)?;
-    Ok((analysis, Some(reduced)))
+    Ok((analysis, reduced))
 }
 
 fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
