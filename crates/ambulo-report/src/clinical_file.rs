@@ -37,7 +37,7 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
     let table = move || {
-        let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
+        let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref()).without(&outcome.not_measured);
         Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", curves.columns())?)))
     };
     (OutputFile::csv_by(CLINICAL, table), convention)
@@ -74,6 +74,8 @@ pub(crate) struct Curves<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
     angles: Option<&'a ClinicalAngles>,
+    /// Coordinates whose angles, moments and powers are no results.
+    not_measured: &'a [CoordinateId],
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
     /// The mass that moments, powers and ground forces are divided by [kg].
@@ -87,7 +89,12 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, ground, mass_kg: analysis.mass.kg }
+        Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
+    }
+
+    /// The same without the quantities of coordinates that are not measured.
+    pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
+        Curves { not_measured, ..self }
     }
 
     /// The same per another mass [kg], such as that of the one body of several trials.
@@ -96,10 +103,17 @@ impl<'a> Curves<'a> {
     }
 
     fn columns(&self) -> Vec<(String, Vec<f64>)> {
+        let frames = self.analysis.trajectory.grid().frames;
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
             for side in Side::BOTH {
-                columns.extend(self.values(&quantity, side).map(|values| (quantity.clinical_column(side), values)));
+                let name = quantity.clinical_column(side);
+                match self.values(&quantity, side) {
+                    Some(values) => columns.push((name, values)),
+                    // An empty column: the body has the quantity, but nothing recorded determines it.
+                    None if self.is_unmeasured(&quantity, side) => columns.push((name, vec![f64::NAN; frames])),
+                    None => {}
+                }
             }
         }
         columns
@@ -116,8 +130,17 @@ impl<'a> Curves<'a> {
         clinical_quantities(&ClinicalNames::of_model(self.model), |name| names.contains(name))
     }
 
-    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it.
+    /// Whether a quantity follows from a coordinate that is not measured.
+    fn is_unmeasured(&self, quantity: &ClinicalQuantity, side: Side) -> bool {
+        self.coordinate(quantity, side).is_some_and(|id| self.not_measured.contains(&id))
+    }
+
+    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it, or if it is not
+    /// measured.
     pub(crate) fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
+        if self.is_unmeasured(quantity, side) {
+            return None;
+        }
         let factor = quantity.factor(self.mass_kg, side);
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;

@@ -24,6 +24,7 @@ mod force_table;
 mod idle_forces;
 mod laboratory_file;
 pub(crate) mod mass;
+mod not_measured;
 mod observation;
 mod opensim_setup;
 mod origin;

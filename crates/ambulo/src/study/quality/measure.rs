@@ -29,6 +29,10 @@ pub enum Measure {
     Scaling,
     /// Ratio of scale factors.
     ScaleFactors,
+    /// Number of contradictions between the labels of markers, the standing trial and the person.
+    WhoseMarkers,
+    /// Number of coordinates of pelvis and legs that are not measured.
+    NotMeasured,
     /// Difference of the body mass from that on the plates.
     Mass,
     /// Share of the frames with an unknown posture.
@@ -66,7 +70,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 21] = [
+    pub const ALL: [Measure; 23] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -76,6 +80,8 @@ impl Measure {
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
+        Measure::WhoseMarkers,
+        Measure::NotMeasured,
         Measure::Mass,
         Measure::Gaps,
         Measure::Sliding,
@@ -104,6 +110,8 @@ impl Measure {
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
+            Measure::WhoseMarkers => AtMost(0.0, 3.0),
+            Measure::NotMeasured => AtMost(0.0, 4.0),
             Measure::Mass => AtMost(0.05, 0.15),
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
@@ -137,9 +145,19 @@ impl Measure {
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
+            Measure::MarkerFit => {
+                "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms differ, of \
+                 the worst of them without the arms"
+            }
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
+            Measure::WhoseMarkers => {
+                "number of contradictions: left and right exchanged in all labels, limbs of another person in the standing \
+                 trial, markers that moved since then"
+            }
+            Measure::NotMeasured => {
+                "number of coordinates of pelvis and legs that nothing recorded determines, or that sit on their limit"
+            }
             Measure::Mass => {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"
             }
@@ -189,6 +207,8 @@ impl Measure {
             | Measure::UnassignedForces
             | Measure::SilentPlates
             | Measure::ScaleFactors
+            | Measure::WhoseMarkers
+            | Measure::NotMeasured
             | Measure::Mass
             | Measure::Gaps
             | Measure::Jumps
