@@ -103,17 +103,10 @@ impl<'a> Curves<'a> {
     }
 
     fn columns(&self) -> Vec<(String, Vec<f64>)> {
-        let frames = self.analysis.trajectory.grid().frames;
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
             for side in Side::BOTH {
-                let name = quantity.clinical_column(side);
-                match self.values(&quantity, side) {
-                    Some(values) => columns.push((name, values)),
-                    // An empty column: the body has the quantity, but nothing recorded determines it.
-                    None if self.is_unmeasured(&quantity, side) => columns.push((name, vec![f64::NAN; frames])),
-                    None => {}
-                }
+                columns.extend(self.values(&quantity, side).map(|values| (quantity.clinical_column(side), values)));
             }
         }
         columns

@@ -300,11 +300,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         prediction: prediction.map(|prediction| prediction.checks.clone()),
         comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
         subject: outcome.tracking.as_ref().map(subject),
-        not_measured: outcome
-            .not_measured
-            .iter()
-            .map(|id| model.coordinates()[id.index()].name.clone())
-            .collect(),
+        not_measured: outcome.not_measured.iter().map(|id| model.coordinates()[id.index()].name.clone()).collect(),
         consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
         tracking: prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of),
         walk: None,

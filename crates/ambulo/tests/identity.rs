@@ -5,12 +5,15 @@
 //! | exchanged labels, of all markers or of a pair, are undone | exact |
 //! | a marker that the standing trial lacks is placed by the walk: angle of the ankle, mean over the frames | 3 degrees |
 //! | a marker that moved by 40 mm is named; another person's standing trial is | - |
+//! | in a folder of several people each gets the own standing trial | exact |
 //! | clean recordings have none of these findings | exact |
 
 use crate::plug_in_gait::{PEOPLE, Person};
 use crate::shared_data::data;
 use ambulo::analysis::MarkerTrialError;
 use ambulo::findings::{Code, Findings};
+use ambulo::job::FileError;
+use ambulo::job::trials::{FoundFile, Listing, TrialFolder, Wanted};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
@@ -121,7 +124,8 @@ fn a_marker_that_only_the_standing_trial_lacks_is_placed_by_the_walk() {
             change_standing(&mut spoiled, |still| lost.iter().for_each(|name| hide(still, name)));
             let (found, findings) = run(spoiled);
             let side = lost[0][..1].to_lowercase();
-            let [ankle, knee] = ["ankle_angle", "knee_angle"].map(|stem| apart(&clean, &found, &format!("{stem}_{side}")));
+            let [ankle, knee] =
+                ["ankle_angle", "knee_angle"].map(|stem| apart(&clean, &found, &format!("{stem}_{side}")));
             println!("{} {lost:?}: ankle {ankle:.1}, knee {knee:.1} degrees", person.name);
             assert!(ankle < 3.0 && knee < 4.0, "{} {lost:?}: {ankle} {knee}", person.name);
             assert!(message(&findings, Code::CalibrationPlaced).contains(lost[0]));
@@ -162,7 +166,9 @@ fn labels_of_left_and_right_that_are_exchanged_throughout_are_named_and_exchange
                 change_standing(&mut spoiled, exchange_all);
             }
             let (found, findings) = run(spoiled);
-            assert!(message(&findings, Code::MarkersSidesExchanged).contains("left and right are exchanged in all labels"));
+            assert!(
+                message(&findings, Code::MarkersSidesExchanged).contains("left and right are exchanged in all labels")
+            );
             assert_ne!(found.quality.state, QualityState::Good);
             for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
                 assert!(apart(&clean, &found, name) < 1e-6, "{} {name}", person.name);
@@ -179,7 +185,11 @@ fn a_pair_that_is_exchanged_throughout_is_exchanged_back() {
         for in_walk in [true, false] {
             let mut spoiled = source(&PEOPLE[0], &data);
             let exchange = |recording: &mut MarkerRecording| exchange_pair(recording, right, left);
-            if in_walk { change_walk(&mut spoiled, exchange) } else { change_standing(&mut spoiled, exchange) }
+            if in_walk {
+                change_walk(&mut spoiled, exchange)
+            } else {
+                change_standing(&mut spoiled, exchange)
+            }
             let (found, findings) = run(spoiled);
             assert!(message(&findings, Code::MarkersSwap).contains(right), "{right}");
             for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
@@ -238,7 +248,9 @@ fn two_people_in_one_file_are_refused_with_their_names_and_one_can_be_chosen() {
     let both = together(&markers(&mut anna).trial.recording.markers, &markers(&mut ben).trial.recording.markers);
     markers(&mut anna).trial.recording.markers = both;
     let refused = study::run(anna.clone(), &Settings::default(), &mut Findings::default()).unwrap_err();
-    assert!(matches!(&refused, StudyError::Markers(MarkerTrialError::SeveralPeople { people, .. }) if *people == ["Anna", "Ben"]));
+    assert!(
+        matches!(&refused, StudyError::Markers(MarkerTrialError::SeveralPeople { people, .. }) if *people == ["Anna", "Ben"])
+    );
     let file = markers(&mut anna).trial.clone();
     let chosen = file.clone().of_person(Some("anna")).unwrap();
     assert!(chosen.recording.markers.marker("RASI").is_some() && chosen.recording.markers.marker("Ben:RASI").is_none());
@@ -248,4 +260,29 @@ fn two_people_in_one_file_are_refused_with_their_names_and_one_can_be_chosen() {
     let (clean, found) = (run(source(&PEOPLE[0], &data)).0, run(anna).0);
     let (clean, found) = (angle(&clean, "knee_angle_r"), angle(&found, "knee_angle_r"));
     assert!(clean.iter().zip(&found).take(40).all(|(a, b)| (a - b).abs() < 0.5));
+}
+
+#[test]
+fn in_a_folder_of_several_people_each_recording_gets_the_standing_trial_of_its_person() {
+    let Some(data) = data() else { return };
+    let file = |name: &str| FoundFile {
+        path: data.join(format!("biomechzoo-{}/{name}.c3d", &name[..6])),
+        name: format!("{name}.c3d"),
+        folder: String::new(),
+    };
+    let people = [("HC031A01", "HC031A06"), ("HC032A01", "HC032A03"), ("HC033A01", "HC033A10")];
+    let mut found: Vec<FoundFile> = people.iter().flat_map(|(still, walk)| [file(still), file(walk)]).collect();
+    // The walk of a person whose standing trial is not there.
+    found.push(file("HC055A09"));
+    let mut files = |path: &Path| std::fs::read(path).map_err(FileError::from);
+    let folder = TrialFolder { path: &data, name: "laboratory", wanted: Wanted::Motion };
+    let listing = Listing::of_folder(folder, &found, &mut files).unwrap();
+    let contents: Vec<_> = (0..listing.recordings()).map(|k| listing.content(k, &mut files)).collect();
+    let plan = listing.plan(&contents, &mut files);
+    assert_eq!(plan.trials.len(), 4, "{:?}", plan.others);
+    for trial in &plan.trials {
+        let standing = trial.files.standing.as_ref().map(|path| path.file_stem().unwrap().to_str().unwrap());
+        let own = people.iter().find(|(_, walk)| trial.name.starts_with(walk)).map(|(still, _)| *still);
+        assert_eq!(standing, own, "{}", trial.name);
+    }
 }

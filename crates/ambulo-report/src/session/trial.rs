@@ -59,9 +59,8 @@ impl ComputedTrial {
         let unmeasured = &outcome.not_measured;
         let moving = Curves::of(body, analysis, angles.as_ref()).without(unmeasured).per_mass(body.mass());
         let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
-        let on_plates = measured.map(|measured| {
-            (measured, Curves::of(body, measured, None).without(unmeasured).per_mass(body.mass()))
-        });
+        let on_plates = measured
+            .map(|measured| (measured, Curves::of(body, measured, None).without(unmeasured).per_mass(body.mass())));
         let progression = foot_progression(body, &person.soles, analysis);
         let mut reader = CurveReader { values: BTreeMap::new() };
         let cycles = analysis.cycles.iter().zip(progression).map(|(cycle, progression)| {

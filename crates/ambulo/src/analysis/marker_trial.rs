@@ -86,7 +86,7 @@ pub(crate) fn fit_body_to_markers(
         identity::refuse_several(&recording.markers)?;
     }
     let mut contradictions = Vec::new();
-    let trial = &*identity::with_right_labels(trial, set, &mut contradictions, findings);
+    let trial = &*identity::with_right_labels(trial, "recording", set, &mut contradictions, findings);
     let (axes, LaboratoryRecording { markers, poses, plates, .. }) = body.turned(trial, findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
@@ -97,14 +97,13 @@ pub(crate) fn fit_body_to_markers(
     let keypoints = Keypoints::recognised(&markers, set);
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
     let standing = standing.map(|standing| {
-        let standing = identity::with_right_labels(standing, set, &mut contradictions, findings);
+        let standing = identity::with_right_labels(standing, "standing trial", set, &mut contradictions, findings);
         let found = body.turned(&standing, findings).1.markers;
         Keypoints::recognised(&found, set).map_or(found, |points| points.smooth)
     });
     let whole = standing.as_ref().and_then(|standing| body.completed(standing, moving, findings));
-    let calibrated = |findings: &mut Findings| {
-        Subject::of_source(body, moving, whole.as_ref().or(standing.as_ref()), findings)
-    };
+    let calibrated =
+        |findings: &mut Findings| Subject::of_source(body, moving, whole.as_ref().or(standing.as_ref()), findings);
     // A body that needs the motion besides the standing trial is not that of the other motions.
     let subject = match (&standing, bodies) {
         (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(body, findings, calibrated)?,
@@ -116,12 +115,9 @@ pub(crate) fn fit_body_to_markers(
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    if let (Some(standing), None) = (&standing, &keypoints) {
-        identity::report_other_limbs(moving, standing, set, &mut contradictions, findings);
-        if contradictions.is_empty() {
-            identity::report_moved(&subject, moving, &settings, &mut contradictions, findings);
-        }
-    }
+    let is_other = standing
+        .as_ref()
+        .is_some_and(|standing| identity::report_other_limbs(moving, standing, set, &mut contradictions, findings));
     let (mut fit, followed, keypoints) = match keypoints {
         Some(keypoints) => {
             let FollowedKeypoints { fit, smooth, report } =
@@ -133,6 +129,9 @@ pub(crate) fn fit_body_to_markers(
             (fit, followed, None)
         }
     };
+    if standing.is_some() && !is_other && keypoints.is_none() {
+        identity::report_moved(&subject, &followed, &settings, &mut contradictions, findings);
+    }
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
@@ -168,7 +167,16 @@ impl OnFloor<'_> {
         let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
         let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
-        Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates, keypoints: None, contradictions: Vec::new() })
+        Ok(BodyInMotion {
+            subject,
+            laboratory: axes,
+            plates,
+            fit,
+            feet,
+            on_plates,
+            keypoints: None,
+            contradictions: Vec::new(),
+        })
     }
 }
 

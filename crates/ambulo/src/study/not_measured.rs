@@ -27,7 +27,8 @@ struct NotMeasured {
 }
 
 /// Finds and reports the coordinates of a motion, fitted to a recording, that are not measured.
-pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<CoordinateId> {
+/// Each comes with whether it is held.
+pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     let asked = || model.coordinate_ids().filter(|id| is_asked(model, *id));
     let found: Vec<NotMeasured> = asked().filter_map(|id| of_coordinate(model, motion, id)).collect();
     // A figure in which nothing moves is still, not unmeasured.
@@ -49,7 +50,7 @@ pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findin
         );
         findings.report(Code::MarkersNotMeasured, message);
     }
-    found.into_iter().map(|one| one.coordinate).collect()
+    found.into_iter().map(|one| (one.coordinate, one.is_held)).collect()
 }
 
 /// Whether a coordinate is free and measures a movement that clinical tables have.
@@ -87,11 +88,17 @@ fn is_clinical(movement: Movement) -> bool {
 
 fn on_limit(coordinate: &Coordinate, known: &[f64]) -> Option<String> {
     let [least, most] = coordinate.range?;
-    let share = |limit: f64| known.iter().filter(|value| (**value - limit).abs() < AT_M).count() as f64 / known.len() as f64;
+    let share =
+        |limit: f64| known.iter().filter(|value| (**value - limit).abs() < AT_M).count() as f64 / known.len() as f64;
     let limit = if share(least) > share(most) { least } else { most };
     let share = share(limit);
     (share > ON_LIMIT).then(|| {
-        format!("sits on its limit of {} in {:.0} % of the frames (at most {:.0} %)", shown(limit), 100.0 * share, 100.0 * ON_LIMIT)
+        format!(
+            "sits on its limit of {} in {:.0} % of the frames (at most {:.0} %)",
+            shown(limit),
+            100.0 * share,
+            100.0 * ON_LIMIT
+        )
     })
 }
 

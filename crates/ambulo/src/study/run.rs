@@ -135,7 +135,8 @@ struct Computed {
     /// Times in which a force plate measured only a part of a foot's load [s].
     partly_measured: Vec<[f64; 2]>,
     recorded: Option<RecordedFaults>,
-    not_measured: Vec<CoordinateId>,
+    /// Coordinates that are not measured, and whether they are held.
+    not_measured: Vec<(CoordinateId, bool)>,
     processing: analysis::AnalysisSettings,
     force_origin: ForceOrigin,
 }
@@ -186,7 +187,7 @@ impl Computed {
             prediction,
             residual_reduction: self.reduction,
             device: self.device,
-            not_measured: self.not_measured,
+            not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
             processing: Processing::of(&processing),
         }
@@ -194,7 +195,7 @@ impl Computed {
 }
 
 /// Coordinates that nothing recorded determines. Recorded coordinates are what they are.
-fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Findings) -> Vec<CoordinateId> {
+fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     match (&observed.origin, motion) {
         (Origin::Markers(_) | Origin::Skeleton(_) | Origin::Sensors, ObservedMotion::Recorded(motion)) => {
             not_measured(&observed.model, motion, findings)
@@ -300,7 +301,9 @@ fn without_faults_of_data(
 fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
     let Some(Tracking::Markers(tracked)) = tracking else { return };
     let [of_legs, of_trunk, of_arms] = rms_of_parts_m(tracked);
-    if Measure::MarkerFit.is_bad(of_arms.max(0.0)) && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0))) {
+    if Measure::MarkerFit.is_bad(of_arms.max(0.0))
+        && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
+    {
         let message = format!(
             "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of the \
              body are not those of the recording, which hardly changes the forces of the legs",

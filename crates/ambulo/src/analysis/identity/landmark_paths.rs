@@ -23,6 +23,8 @@ pub(super) struct LandmarkPaths<'a> {
     pub(super) recording: &'a MarkerRecording,
     pub(super) recognised: Arc<RecognisedMarkers>,
     numbers: BTreeMap<(Landmark, Option<Side>), usize>,
+    /// The direction to the right in each of [`LandmarkPaths::frames`], which depends on no labels of sides.
+    rights: Arc<Vec<Option<Vec3>>>,
 }
 
 impl<'a> LandmarkPaths<'a> {
@@ -34,22 +36,36 @@ impl<'a> LandmarkPaths<'a> {
             None => MarkerSet::recognise(names()).ok()?,
         };
         let number = |name: &str| names().position(|known| known == name);
-        let numbers = recognised.markers.iter().filter_map(|marker| {
-            Some(((marker.definition.landmark?, marker.definition.side), number(&marker.name)?))
-        });
+        let numbers = recognised
+            .markers
+            .iter()
+            .filter_map(|marker| Some(((marker.definition.landmark?, marker.definition.side), number(&marker.name)?)));
         let numbers = numbers.collect();
-        Some(LandmarkPaths { recording, recognised: Arc::new(recognised), numbers })
+        let recognised = Arc::new(recognised);
+        let mut paths = LandmarkPaths { recording, recognised, numbers, rights: Arc::default() };
+        paths.rights = Arc::new(paths.frames().map(|frame| paths.right(frame)).collect());
+        Some(paths)
     }
 
     /// The same landmarks in a recording with the same markers.
     pub(super) fn with<'b>(&self, recording: &'b MarkerRecording) -> LandmarkPaths<'b> {
-        LandmarkPaths { recording, recognised: Arc::clone(&self.recognised), numbers: self.numbers.clone() }
+        LandmarkPaths {
+            recording,
+            recognised: Arc::clone(&self.recognised),
+            numbers: self.numbers.clone(),
+            rights: Arc::clone(&self.rights),
+        }
     }
 
     /// Frames spread over the recording.
     pub(super) fn frames(&self) -> impl Iterator<Item = usize> + use<> {
         let count = self.recording.frames();
         (0..count).step_by(count.div_ceil(MOST_FRAMES).max(1))
+    }
+
+    /// The frames in which the direction to the right is known, with it.
+    pub(super) fn facing(&self) -> impl Iterator<Item = (usize, Vec3)> {
+        self.frames().zip(self.rights.iter()).filter_map(|(frame, right)| Some((frame, (*right)?)))
     }
 
     /// Number of a marker in the recording.
@@ -88,7 +104,7 @@ impl<'a> LandmarkPaths<'a> {
     /// The direction to the right of the person that follows from up (feet to pelvis) and forward (heels to toes, back
     /// to front of the pelvis); it does not change when left and right labels are exchanged. `None` where pelvis and
     /// feet face different ways, or are not seen.
-    pub(super) fn right(&self, frame: usize) -> Option<Vec3> {
+    fn right(&self, frame: usize) -> Option<Vec3> {
         let pelvis = self.middle(&[Landmark::Asis, Landmark::HipCentre, Landmark::Psis], frame)?;
         let up = (pelvis - self.middle(&ANKLES, frame)?).try_normalize(f64::MIN_POSITIVE)?;
         let level = |v: Vec3| (v - up * v.dot(&up)).try_normalize(f64::MIN_POSITIVE);

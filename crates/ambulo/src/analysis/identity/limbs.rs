@@ -7,8 +7,9 @@
 //! | shank | lateral epicondyle and lateral malleolus |
 //! | foot | heel and front of the foot |
 //!
-//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb, in another direction on each; another person has other
-//! proportions. So it is another person's if the middle limb differs by more than [`OTHER`] of its length.
+//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them; another
+//! person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their lengths,
+//! root mean square: one marker that slides by 20 mm cannot do that.
 
 use super::Contradictions;
 use super::landmark_paths::{FRONTS, LandmarkPaths};
@@ -17,10 +18,10 @@ use crate::kinematics::calibration::hip_centres;
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, MarkerSet};
 use crate::motion::MarkerRecording;
-use crate::numerics::median;
+use crate::numerics::{median, rms};
 
-/// Difference of the middle limb, as a share of its length, that shows another person.
-const OTHER: f64 = 0.06;
+/// Difference of the limbs, as a share of their lengths, that shows another person.
+pub(crate) const OTHER: f64 = 0.055;
 /// Fewest limbs that are compared.
 const FEWEST: usize = 4;
 const KNEES: [Landmark; 2] = [Landmark::LateralEpicondyle, Landmark::KneeCentre];
@@ -29,9 +30,8 @@ const ANKLES: [Landmark; 2] = [Landmark::LateralMalleolus, Landmark::AnkleCentre
 /// Median lengths of the limbs [m], by name.
 pub(crate) fn lengths(markers: &MarkerRecording, set: Option<&MarkerSet>) -> Vec<(String, f64)> {
     let Some(paths) = LandmarkPaths::of(markers, set) else { return Vec::new() };
-    let middle = |name: String, length: &dyn Fn(usize) -> Option<f64>| {
-        Some((name, median(paths.frames().filter_map(length))?))
-    };
+    let middle =
+        |name: String, length: &dyn Fn(usize) -> Option<f64>| Some((name, median(paths.frames().filter_map(length))?));
     let asis = |frame: usize| {
         let [right, left] = Side::BOTH.map(|side| paths.at(Landmark::Asis, Some(side), frame));
         Some([right?, left?])
@@ -62,38 +62,34 @@ pub(crate) fn lengths(markers: &MarkerRecording, set: Option<&MarkerSet>) -> Vec
     of_pelvis.into_iter().chain(of_legs).flatten().collect()
 }
 
-/// The median relative difference of limbs that both have; `None` if they are too few.
+/// Root mean square of the relative differences of limbs that both have; `None` if they are too few.
 pub(crate) fn difference(own: &[(String, f64)], other: &[(String, f64)]) -> Option<f64> {
     let ratios: Vec<f64> = own
         .iter()
-        .filter_map(|(name, length)| Some((length / other.iter().find(|(known, _)| known == name)?.1 - 1.0).abs()))
+        .filter_map(|(name, length)| Some(length / other.iter().find(|(known, _)| known == name)?.1 - 1.0))
         .collect();
-    (ratios.len() >= FEWEST).then(|| median(ratios)).flatten()
+    (ratios.len() >= FEWEST).then(|| rms(&ratios))
 }
 
-/// Reports a standing trial whose limbs are those of another person.
+/// Reports a standing trial whose limbs are those of another person; returns whether they are.
 pub(in crate::analysis) fn report_other_limbs(
     moving: &MarkerRecording,
     standing: &MarkerRecording,
     set: Option<&MarkerSet>,
     contradictions: &mut Contradictions,
     findings: &mut Findings,
-) {
+) -> bool {
     let (own, still) = (lengths(moving, set), lengths(standing, set));
-    if std::env::var("AMBULO_DEBUG_MOVED").is_ok() {
-        let d: Vec<String> = own.iter().filter_map(|(n, l)| still.iter().find(|(k, _)| k == n).map(|(_, o)| format!("{n} {:.3}", l / o - 1.0))).collect();
-        eprintln!("LIMBS {:?} {}", difference(&own, &still), d.join(", "));
-    }
-    let Some(share) = difference(&own, &still).filter(|share| *share > OTHER) else { return };
+    let Some(share) = difference(&own, &still).filter(|share| *share > OTHER) else { return false };
     let worst = own.iter().filter_map(|(name, length)| {
         let other = still.iter().find(|(known, _)| known == name)?.1;
         Some((name, *length, other))
     });
     let relative = |&(_, own, still): &(&String, f64, f64)| (own / still - 1.0).abs();
-    let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return };
+    let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return false };
     let message = format!(
-        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (median; \
-         at most {:.0} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
+        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; at \
+         most {:.1} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
          this person, or none",
         100.0 * share,
         100.0 * OTHER,
@@ -102,4 +98,5 @@ pub(in crate::analysis) fn report_other_limbs(
     );
     contradictions.push("the limbs of the standing trial are those of another person".to_owned());
     findings.report(Code::CalibrationOtherLimbs, message);
+    true
 }

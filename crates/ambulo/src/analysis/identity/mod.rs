@@ -21,7 +21,7 @@ mod sides;
 
 pub(super) use completion::completed;
 pub(super) use limbs::report_other_limbs;
-pub(crate) use limbs::{difference as limb_difference, lengths as limb_lengths};
+pub(crate) use limbs::{OTHER as OTHER_LIMBS, difference as limb_difference, lengths as limb_lengths};
 pub(super) use moved::report_moved;
 pub(super) use several::refuse_several;
 pub(crate) use several::{people_in, person_in};
@@ -35,9 +35,10 @@ use std::borrow::Cow;
 /// What contradicts the labels or the standing trial of a person, one sentence each.
 pub(super) type Contradictions = Vec<String>;
 
-/// The recording with the labels of one person: left and right as the body shows them.
+/// The recording with the labels of one person: left and right as the body shows them. `which` names it in messages.
 pub(super) fn with_right_labels<'a>(
     recording: &'a LaboratoryRecording,
+    which: &str,
     set: Option<&MarkerSet>,
     contradictions: &mut Contradictions,
     findings: &mut Findings,
@@ -46,9 +47,9 @@ pub(super) fn with_right_labels<'a>(
         return Cow::Borrowed(recording);
     }
     let Some(paths) = LandmarkPaths::of(&recording.markers, set) else { return Cow::Borrowed(recording) };
-    let mirrored = sides::exchanged_back(&paths, contradictions, findings);
+    let mirrored = sides::exchanged_back(&paths, which, contradictions, findings);
     let unmirrored = mirrored.as_ref().unwrap_or(&recording.markers);
-    let of_pairs = pairs::exchanged_back(&paths.with(unmirrored), findings);
+    let of_pairs = pairs::exchanged_back(&paths.with(unmirrored), which, findings);
     match of_pairs.or(mirrored) {
         Some(markers) => Cow::Owned(LaboratoryRecording { markers, ..recording.clone() }),
         None => Cow::Borrowed(recording),

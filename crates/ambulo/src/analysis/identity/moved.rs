@@ -15,7 +15,7 @@ use super::Contradictions;
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::kinematics::{Posture, body_motion};
-use crate::model::{Marker, Model};
+use crate::model::{CoordinateId, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::Vec3;
@@ -24,11 +24,16 @@ use std::collections::BTreeMap;
 /// A marker further than this from its place has moved [m]: skin slides by 10 to 20 mm on the mean of a walk.
 const MOVED_M: f64 = 0.025;
 /// How far the other markers must contradict it [m].
-const CONTRADICTED_M: f64 = 0.012;
+const CONTRADICTED_M: f64 = 0.017;
+/// A marker that is nearer to its place although it pulls on the body itself is not asked [m]: √(r · r₀) is larger than
+/// [`CONTRADICTED_M`] only if r is, or if the marker determines the body almost alone.
+const SUSPICIOUS_M: f64 = 0.008;
+/// Most markers that are asked, those furthest from their places.
+const MOST_ASKED: usize = 4;
 /// Frames of the motion, spread over it.
-const FRAMES: usize = 16;
-/// Most markers that are named.
-const MOST: usize = 3;
+const FRAMES: usize = 12;
+/// So many markers do not move at once: the body is another person's, or all were put on anew.
+const ANOTHER_PERSON: usize = 3;
 
 /// Reports the markers of legs and pelvis that moved.
 pub(in crate::analysis) fn report_moved(
@@ -40,24 +45,35 @@ pub(in crate::analysis) fn report_moved(
 ) {
     let sample = sample(moving);
     let mut fitter = Fitter { model: &subject.model, sample: &sample, settings, left_out: Vec::new() };
-    for _ in 0..MOST {
-        let Some((name, away)) = fitter.farthest() else { return };
-        let (distance, way) = (away.norm(), way(away));
-        let message = format!(
-            "marker `{name}` is {:.0} mm further {way} on the body than in the standing trial, while the other markers \
-             agree: it moved, or was put on anew, between the two recordings. hint: check photographs or records; \
-             without the standing trial the body follows the markers of the motion",
-            1e3 * distance
-        );
-        findings.report(Code::MarkersMoved, message);
-        contradictions.push(format!("marker `{name}` moved by {:.0} mm since the standing trial", 1e3 * distance));
+    let mut moved = Vec::new();
+    while moved.len() < ANOTHER_PERSON {
+        let Some((name, away)) = fitter.farthest() else { break };
+        moved.push(format!("`{name}` {:.0} mm {}", 1e3 * away.norm(), way(away)));
         fitter.left_out.push(name);
     }
+    if moved.is_empty() {
+        return;
+    }
+    let (code, what) = match moved.len() < ANOTHER_PERSON {
+        true => (Code::MarkersMoved, "the other markers agree: moved, or put on anew, between the two recordings"),
+        false => (
+            Code::CalibrationOtherLimbs,
+            "the standing trial is that of another person, or its markers were put on anew",
+        ),
+    };
+    let message = format!(
+        "on the body, the markers of the recording are not where those of the standing trial were: {}; {what}. hint: \
+         give the standing trial of these markers; without one the body follows the markers of the recording",
+        moved.join(", ")
+    );
+    findings.report(code, message);
+    contradictions.push(format!("markers that moved since the standing trial: {}", moved.join(", ")));
 }
 
 /// The direction of a displacement in the axes of a segment: forward, up, right.
 fn way(away: Vec3) -> &'static str {
-    const WAYS: [[&str; 2]; 3] = [["forward", "backward"], ["up", "down"], ["to the right", "to the left"]];
+    const WAYS: [[&str; 2]; 3] =
+        [["further forward", "further backward"], ["higher", "lower"], ["to the right", "to the left"]];
     let axis = away.iamax();
     WAYS[axis][usize::from(away[axis] < 0.0)]
 }
@@ -99,7 +115,9 @@ impl Fitter<'_> {
         let is_own = move |marker: &&Marker| marker.body.is_some_and(|body| bodies.contains(&body));
         let is_seen = |marker: &&Marker| {
             let path = self.sample.marker(&marker.name);
-            path.is_some_and(|path| 2 * (0..path.positions.len()).filter(|f| path.is_seen(*f)).count() > self.sample.frames())
+            path.is_some_and(|path| {
+                2 * (0..path.positions.len()).filter(|f| path.is_seen(*f)).count() > self.sample.frames()
+            })
         };
         self.model.markers().iter().filter(is_own).filter(is_seen)
     }
@@ -107,14 +125,19 @@ impl Fitter<'_> {
     /// The marker that moved furthest, with the displacement in the axes of its segment [m].
     fn farthest(&self) -> Option<(String, Vec3)> {
         let with_all = self.distances(None)?;
-        let moved = self.markers().filter(|marker| !self.left_out.contains(&marker.name)).filter_map(|marker| {
-            let own = *with_all.get(&marker.name)?;
-            let away = *self.distances(Some(&marker.name))?.get(&marker.name)?;
+        let mut suspicious: Vec<(&String, Vec3)> = with_all
+            .iter()
+            .filter(|(name, own)| own.norm() > SUSPICIOUS_M && !self.left_out.contains(name))
+            .map(|(name, own)| (name, *own))
+            .collect();
+        suspicious.sort_by(|a, b| b.1.norm().total_cmp(&a.1.norm()));
+        let moved = suspicious.into_iter().take(MOST_ASKED).filter_map(|(name, own)| {
+            let away = *self.distances(Some(name))?.get(name)?;
             let contradicted = own.dot(&away).max(0.0).sqrt();
-            if std::env::var("AMBULO_DEBUG_MOVED").is_ok() {
-                eprintln!("MOVED {} own {:.0} {:.0} {:.0} away {:.0} {:.0} {:.0} |{:.0}| contra {:.0}", marker.name, 1e3*own.x,1e3*own.y,1e3*own.z,1e3*away.x,1e3*away.y,1e3*away.z, 1e3*away.norm(), 1e3*contradicted);
-            }
-            (away.norm() > MOVED_M && contradicted > CONTRADICTED_M).then(|| (marker.name.clone(), away, contradicted))
+            // Of two candidates the one that stands against the others by itself: a toe shows the ankle angle almost
+            // alone, so that it is far away when another marker of the foot moved.
+            let rank = own.dot(&away) / away.norm();
+            (away.norm() > MOVED_M && contradicted > CONTRADICTED_M).then(|| (name.clone(), away, rank))
         });
         let worst = moved.max_by(|a, b| a.2.total_cmp(&b.2));
         worst.map(|(name, away, _)| (name, away))
@@ -122,17 +145,18 @@ impl Fitter<'_> {
 
     /// Median displacement of each marker from its place, in the axes of its segment [m], when one of them is left out.
     fn distances(&self, left_out: Option<&str>) -> Option<BTreeMap<String, Vec3>> {
-        let is_used = |marker: &&Marker| {
-            Some(marker.name.as_str()) != left_out && !self.left_out.contains(&marker.name)
-        };
+        let is_used =
+            |marker: &&Marker| Some(marker.name.as_str()) != left_out && !self.left_out.contains(&marker.name);
         let mut weights: BTreeMap<String, f64> =
             self.model.markers().iter().map(|marker| (marker.name.clone(), 0.0)).collect();
         weights.extend(self.markers().filter(is_used).map(|marker| (marker.name.clone(), 1.0)));
         let settings = FitSettings { weights, outliers: OutlierDetection::Off, ..self.settings.clone() };
         let fit = fit_markers(self.model, self.sample, &settings, &mut Findings::default()).ok()?;
+        let own: Vec<(&Marker, &MarkerPath)> =
+            self.markers().filter_map(|marker| Some((marker, self.sample.marker(&marker.name)?))).collect();
         let mut seen: BTreeMap<String, Vec<Vec3>> = BTreeMap::new();
         for frame in 0..self.sample.frames() {
-            let value = |id: crate::model::CoordinateId| {
+            let value = |id: CoordinateId| {
                 let own = fit.motion.column(id).map(|column: &[f64]| column[frame]);
                 own.unwrap_or(self.model.coordinates()[id.index()].default_value)
             };
@@ -142,8 +166,7 @@ impl Fitter<'_> {
             }
             let rest = vec![0.0; q.len()];
             let poses = body_motion(self.model, Posture { q: &q, qd: &rest, qdd: &rest });
-            for marker in self.markers() {
-                let Some(path) = self.sample.marker(&marker.name).filter(|path| path.is_seen(frame)) else { continue };
+            for (marker, path) in own.iter().filter(|(_, path)| path.is_seen(frame)) {
                 let pose = poses[marker.body.map_or(0, |body| body.index())].pose;
                 let away = pose.rotation.transpose() * (path.positions[frame] - pose.place(marker.location));
                 seen.entry(marker.name.clone()).or_default().push(away);

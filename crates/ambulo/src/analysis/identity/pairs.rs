@@ -20,11 +20,15 @@ use crate::numerics::median;
 const NEARER_M: f64 = 0.03;
 /// No forearm is as long [m]: the mean of tall men is 0.28, with a standard deviation below 0.02 (unverified).
 const LONGEST_FOREARM_M: f64 = 0.36;
-/// Pairs without a neighbour, such as shoulders, are at least this far apart [m].
+/// Shoulders, which have no neighbour, are at least this far apart [m]. A head may look anywhere.
 const FAR_APART_M: f64 = 0.1;
 
 /// The recording with exchanged pairs exchanged back; `None` if there is none.
-pub(super) fn exchanged_back(paths: &LandmarkPaths<'_>, findings: &mut Findings) -> Option<MarkerRecording> {
+pub(super) fn exchanged_back(
+    paths: &LandmarkPaths<'_>,
+    which: &str,
+    findings: &mut Findings,
+) -> Option<MarkerRecording> {
     let mut corrected: Option<MarkerRecording> = None;
     let mut pairs = paths.pairs();
     pairs.sort_by_key(|pair| order(pair.right));
@@ -34,7 +38,7 @@ pub(super) fn exchanged_back(paths: &LandmarkPaths<'_>, findings: &mut Findings)
             continue;
         }
         let message = format!(
-            "the markers `{}` and `{}` have exchanged labels in the whole recording; they were exchanged back",
+            "the markers `{}` and `{}` have exchanged labels in the whole {which}; they were exchanged back",
             pair.right.name, pair.left.name
         );
         findings.report(Code::MarkersSwap, message);
@@ -95,7 +99,9 @@ fn is_exchanged(paths: &LandmarkPaths<'_>, pair: &Pair<'_>) -> bool {
         Some([own, (right - of_left).norm() + (left - of_right).norm()])
     };
     let seen: Vec<[f64; 2]> = paths.frames().filter_map(distances).collect();
-    let Some(nearer) = median(seen.iter().map(|[own, other]| own - other)) else { return across < -FAR_APART_M };
+    let Some(nearer) = median(seen.iter().map(|[own, other]| own - other)) else {
+        return is_joint(pair.right.definition.landmark) && across < -FAR_APART_M;
+    };
     let own = median(seen.iter().map(|[own, _]| 0.5 * own)).unwrap_or(0.0);
     let is_possible = pair.right.definition.segment == Segment::Forearm && own < LONGEST_FOREARM_M;
     nearer > NEARER_M && !is_possible

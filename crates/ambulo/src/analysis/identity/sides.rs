@@ -50,15 +50,17 @@ impl<'p> LandmarkPaths<'p> {
     /// How far to the right of its left marker the right marker of a pair is [m]; `None` if they are not seen together.
     pub(super) fn across(&self, pair: &Pair<'_>) -> Option<f64> {
         let [right, left] = pair.numbers;
-        median(self.frames().filter_map(|frame| {
-            Some((self.place(right, frame)? - self.place(left, frame)?).dot(&self.right(frame)?))
-        }))
+        let apart = |(frame, to_the_right): (usize, Vec3)| {
+            Some((self.place(right, frame)? - self.place(left, frame)?).dot(&to_the_right))
+        };
+        median(self.facing().filter_map(apart))
     }
 }
 
 /// The recording with left and right exchanged back in all labels; `None` if they are right.
 pub(super) fn exchanged_back(
     paths: &LandmarkPaths<'_>,
+    which: &str,
     contradictions: &mut Contradictions,
     findings: &mut Findings,
 ) -> Option<MarkerRecording> {
@@ -74,22 +76,15 @@ pub(super) fn exchanged_back(
         return None;
     }
     let message = format!(
-        "left and right are exchanged in all labels of {}: by heels, toes and pelvis {wrong} of {all} pairs of markers \
+        "left and right are exchanged in all labels of the {which}: by heels, toes and pelvis {wrong} of {all} pairs of markers \
          are on the other side, so that the person is mirrored; the labels were exchanged back. hint: correct the \
          labels; if the axes of the laboratory are left-handed (one axis mirrored) the labels are right, and left and \
-         right of the results are exchanged",
-        shown(paths.recording)
+         right of the results are exchanged"
     );
-    contradictions.push(format!(
-        "left and right were exchanged in all labels of {} and were exchanged back",
-        shown(paths.recording)
-    ));
+    let short = format!("left and right were exchanged in all labels of the {which} and were exchanged back");
+    contradictions.push(short);
     findings.report(Code::MarkersSidesExchanged, message);
     Some(with_exchanged(paths, &pairs))
-}
-
-fn shown(recording: &MarkerRecording) -> &str {
-    if recording.name.is_empty() { "the recording" } else { &recording.name }
 }
 
 /// Exchanges the positions of every pair. Markers of one leg or arm alone have nobody to exchange with and are left out.

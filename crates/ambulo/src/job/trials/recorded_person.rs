@@ -1,14 +1,12 @@
 //! Whose recording a file is, by what it says and shows: for the standing trials of a folder with several people.
 
-use crate::analysis::identity::{limb_difference, limb_lengths};
+use crate::analysis::identity::{OTHER_LIMBS, limb_difference, limb_lengths};
 use crate::study::LaboratoryFile;
 use std::collections::BTreeSet;
 
-/// Most that the limbs of recordings with other names differ (median) if they are of one person nevertheless: her own skin
-/// moves that much.
+/// Most that the limbs of recordings with other names differ (rms) if they are of one person nevertheless: skin moves that
+/// much.
 const SAME: f64 = 0.03;
-/// Most that the limbs of one person differ between recordings.
-const OTHER: f64 = 0.06;
 /// Least share of the marker names that a standing trial has in common with a recording of the person.
 const COMMON: f64 = 0.3;
 
@@ -44,7 +42,7 @@ impl RecordedPerson {
         }
         let are_named_apart = self.name.is_some() && other.name.is_some() && self.name != other.name;
         match limb_difference(&self.limbs, &other.limbs) {
-            Some(share) => share <= if are_named_apart { SAME } else { OTHER },
+            Some(share) => share <= if are_named_apart { SAME } else { OTHER_LIMBS },
             None => !are_named_apart,
         }
     }

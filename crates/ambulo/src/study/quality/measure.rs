@@ -156,7 +156,7 @@ impl Measure {
                  trial, markers that moved since then"
             }
             Measure::NotMeasured => {
-                "number of coordinates of pelvis and legs that nothing recorded determines, or that sit on their limit"
+                "number of coordinates of pelvis and legs that nothing recorded determines, so that they have one value"
             }
             Measure::Mass => {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"

@@ -138,7 +138,7 @@ pub(super) struct QualityEvidence<'a> {
     /// Whether the place of the person follows from the feet on the ground.
     pub(super) place_is_derived: bool,
     pub(super) mass: &'a BodyMass,
-    pub(super) not_measured: &'a [CoordinateId],
+    pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
     pub(super) heights: StanceHeights,
@@ -272,10 +272,11 @@ impl QualityEvidence<'_> {
     }
 
     fn unmeasured(&self) -> Option<QualityReason> {
-        let name = |id: &CoordinateId| format!("`{}`", self.model.coordinates()[id.index()].name);
-        Measure::NotMeasured.reason(self.not_measured.len() as f64, |_| {
-            let names: Vec<String> = self.not_measured.iter().map(name).collect();
-            format!("not measured: {}", names.join(", "))
+        let held = self.not_measured.iter().filter(|(_, is_held)| *is_held);
+        let names: Vec<String> =
+            held.map(|(id, _)| format!("`{}`", self.model.coordinates()[id.index()].name)).collect();
+        Measure::NotMeasured.reason(names.len() as f64, |_| {
+            format!("nothing recorded determines {}: one value in every frame", names.join(", "))
         })
     }
 
