@@ -3,7 +3,7 @@
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
-use ambulo::analysis::{AnalysisError, ComparisonError};
+use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
@@ -136,6 +136,9 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
         StudyError::Sensors(error) => of_sensors(error),
+        StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
+            Some("`--subject NAME` chooses one of them")
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

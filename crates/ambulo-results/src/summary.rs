@@ -81,6 +81,9 @@ pub struct Summary {
     pub comparison: Option<GroundAgreement>,
     /// Marker fit, segments, plates and events; `null` for recorded coordinates.
     pub subject: Option<SubjectSummary>,
+    /// Coordinates of pelvis and legs that nothing recorded determines, or that sit on a limit; left out if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_measured: Vec<String>,
     /// Residual reduction; `null` if the motion was not changed.
     pub consistency: Option<ConsistencySummary>,
     /// Tracking by feet on soft ground; `null` if the motion was not changed by it.
@@ -331,6 +334,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         prediction: prediction.map(|prediction| prediction.checks.clone()),
         comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
         subject: outcome.tracking.as_ref().map(subject),
+        not_measured: outcome.not_measured.iter().map(|id| model.coordinates()[id.index()].name.clone()).collect(),
         consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
         tracking: prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of),
         walk: None,

@@ -88,6 +88,7 @@ mod ground_unilateral;
 mod ground_unknowns;
 mod ground_zero_moment_point;
 mod identities;
+mod identity;
 mod independent;
 mod inverse_derivatives;
 mod job_participants;

@@ -280,6 +280,24 @@ codes! {
     MarkersHeld "markers.held" Note
         "No marker determines some coordinates of the body; constant values are used."
         "Add markers on the named segments if these coordinates matter.";
+    MarkersNotMeasured "markers.not_measured" Warning
+        "A coordinate of a leg or the pelvis was not measured: nothing recorded determines it, so that it keeps one \
+         value, or it lies on its limit in more than a tenth of the frames. Clinical tables and scores leave it out."
+        "Record all markers of the segment in the motion and in the standing trial; at a limit, check for misplaced or \
+         exchanged markers.";
+    MarkersArms "markers.arms" Note
+        "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
+        "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
+    MarkersSidesExchanged "markers.sides_exchanged" Warning
+        "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were exchanged \
+         back."
+        "Correct the labels. If the axes of the laboratory are left-handed, mirror one axis instead: the sides of all \
+         results are then exchanged.";
+    MarkersMoved "markers.moved" Warning
+        "A marker is elsewhere on the body than in the standing trial, while the others agree: it moved, or was put on \
+         anew."
+        "Record a standing trial with the markers of the motion, or leave out the standing trial; which of the two \
+         recordings is right cannot be decided.";
     MarkersWindow "markers.window" Warning
         "Markers are missing for too long outside a part of the recording; only this part was analysed."
         "Allow longer gaps, or choose another part of the recording.";
@@ -296,6 +314,13 @@ codes! {
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";
+    CalibrationPlaced "calibration.placed" Warning
+        "The standing trial lacks a marker of a leg or the pelvis that the motion has; its place on the body was taken \
+         from the motion."
+        "Nothing to do if the angles of this segment are plausible; otherwise record a standing trial with all markers.";
+    CalibrationOtherLimbs "calibration.other_limbs" Warning
+        "The limbs of the standing trial have other lengths than those of the motion: it is another person's."
+        "Give the standing trial of this person, or none.";
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
@@ -669,6 +694,20 @@ impl Code {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
+    }
+
+    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    #[must_use]
+    pub fn comes_first(self) -> bool {
+        matches!(
+            self,
+            Code::MarkersNotMeasured
+                | Code::MarkersSidesExchanged
+                | Code::MarkersMoved
+                | Code::CalibrationOtherLimbs
+                | Code::CalibrationOtherPerson
+                | Code::CalibrationPlaced
+        )
     }
 
     /// How much the finding matters.

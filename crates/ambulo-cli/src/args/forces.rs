@@ -290,6 +290,10 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
+    /// The person in recordings of several people: the prefix of the marker names, as Anna for Anna:LASI [default: such
+    /// recordings are refused].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) subject: Option<String>,
     /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A
     /// given model is scaled to it [default: as measured by the force plates or stated in the recording; with --model
     /// the model's].
@@ -341,6 +345,7 @@ impl SubjectArgs {
     fn job(self) -> Job {
         Job {
             standing: self.still,
+            subject: self.subject,
             size: StatedSize { mass_kg: self.mass, height_m: self.height },
             segments: self.figure,
             markers: self.markers,

@@ -75,6 +75,7 @@ def forces(
     refit: bool = False,
     ground: bool = True,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
@@ -141,6 +142,8 @@ def forces(
         False computes without ground forces.
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -221,6 +224,7 @@ def forces(
         "track": track,
         "refit": refit,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,
@@ -278,6 +282,7 @@ def calibrate_person(
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     plates: Mapping[int, str] | None = None,
@@ -302,6 +307,8 @@ def calibrate_person(
         Stature [m].
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -340,6 +347,7 @@ def calibrate_person(
         "mass": mass,
         "height": height,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,

@@ -8,6 +8,7 @@ mod events;
 pub mod feasibility;
 pub(crate) mod foot_progression;
 mod ground_agreement;
+pub(crate) mod identity;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;

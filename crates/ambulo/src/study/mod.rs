@@ -25,6 +25,7 @@ mod idle_forces;
 mod laboratory_file;
 pub(crate) mod mass;
 mod measured;
+mod not_measured;
 mod observation;
 mod opensim_setup;
 mod origin;

@@ -12,7 +12,7 @@ use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
 use crate::ground::stances::{Stance, StanceSource};
-use crate::model::{BySide, Model, Side};
+use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
 
@@ -43,6 +43,9 @@ pub struct Outcome {
     pub residual_reduction: Option<ReducedMotion>,
     /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
     pub device: Option<Vec<Vec<f64>>>,
+    /// Coordinates of pelvis and legs that nothing recorded determines: held at one value, or on a limit in more than a
+    /// tenth of the frames. Their angles and powers are no results.
+    pub not_measured: Vec<CoordinateId>,
     /// Whether the recording, the body and the forces fit together: about the data.
     pub quality: Quality,
     /// Whether a person could do this: about the movement.

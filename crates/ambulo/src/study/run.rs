@@ -4,11 +4,12 @@ use super::error::StudyError;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::measured::{Measured, StanceLoads, measured};
+use super::not_measured::not_measured;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m};
+use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m, rms_of_parts_m};
 use super::refit::refitted;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
@@ -25,7 +26,7 @@ use crate::findings::{Code, Findings};
 use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
 use crate::ground::stances::{Stance, StanceSource};
-use crate::model::Model;
+use crate::model::{CoordinateId, Model};
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -85,6 +86,7 @@ fn road(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
     let (observed, motion) = source.observe(settings, findings, progress)?;
+    let not_measured = unmeasured(&observed, &motion, findings);
     let motion = if settings.refit { refitted(&observed, motion, settings, findings) } else { motion };
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
@@ -111,6 +113,7 @@ fn road(
         mass,
         idle,
         recorded,
+        not_measured,
         processing,
         force_origin,
     };
@@ -140,6 +143,8 @@ struct Computed {
     /// Times in which a force plate measured only a part of a foot's load [s].
     partly_measured: Vec<[f64; 2]>,
     recorded: Option<RecordedFaults>,
+    /// Coordinates that are not measured, and whether they are held.
+    not_measured: Vec<(CoordinateId, bool)>,
     processing: analysis::AnalysisSettings,
     force_origin: ForceOrigin,
 }
@@ -163,6 +168,7 @@ impl Computed {
         };
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
+        report_arms(tracking.as_ref(), findings);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -172,6 +178,8 @@ impl Computed {
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,
             mass: &mass,
+            not_measured: &self.not_measured,
+            model: &body,
             idle: &self.idle,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
@@ -193,10 +201,21 @@ impl Computed {
             prediction,
             residual_reduction: self.reduction,
             device: self.device,
+            not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
             processing: Processing::of(&processing),
             subject: self.subject,
         }
+    }
+}
+
+/// Coordinates that nothing recorded determines. Recorded coordinates are what they are.
+fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
+    match (&observed.origin, motion) {
+        (Origin::Markers(_) | Origin::Skeleton(_) | Origin::Sensors, ObservedMotion::Recorded(motion)) => {
+            not_measured(&observed.model, motion, findings)
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -293,6 +312,23 @@ fn without_faults_of_data(
         verdict.set_aside(|_| false, why);
     }
     verdict
+}
+
+/// Reports arms that do not fit a body whose legs and trunk fit.
+fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
+    let Some(Tracking::Markers(tracked)) = tracking else { return };
+    let [of_legs, of_trunk, of_arms] = rms_of_parts_m(tracked);
+    if Measure::MarkerFit.is_bad(of_arms.max(0.0))
+        && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
+    {
+        let message = format!(
+            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of the \
+             body are not those of the recording, which hardly changes the forces of the legs",
+            1e3 * of_arms,
+            1e3 * of_legs
+        );
+        findings.report(Code::MarkersArms, message);
+    }
 }
 
 /// Reports loaded feet that slide where forces were predicted; a refit may hold them.

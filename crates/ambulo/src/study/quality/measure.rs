@@ -31,6 +31,10 @@ pub enum Measure {
     Scaling,
     /// Ratio of scale factors.
     ScaleFactors,
+    /// Number of contradictions between the labels of markers, the standing trial and the person.
+    WhoseMarkers,
+    /// Number of coordinates of pelvis and legs that are not measured.
+    NotMeasured,
     /// Difference of the body mass from that on the plates.
     Mass,
     /// Share of the frames with an unknown posture.
@@ -68,7 +72,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 22] = [
+    pub const ALL: [Measure; 24] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -79,6 +83,8 @@ impl Measure {
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
+        Measure::WhoseMarkers,
+        Measure::NotMeasured,
         Measure::Mass,
         Measure::Gaps,
         Measure::Sliding,
@@ -108,6 +114,8 @@ impl Measure {
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
+            Measure::WhoseMarkers => AtMost(0.0, 3.0),
+            Measure::NotMeasured => AtMost(0.0, 4.0),
             Measure::Mass => AtMost(0.05, 0.15),
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
@@ -145,9 +153,19 @@ impl Measure {
             }
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
+            Measure::MarkerFit => {
+                "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms differ, of \
+                 the worst of them without the arms"
+            }
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
+            Measure::WhoseMarkers => {
+                "number of contradictions: left and right exchanged in all labels, limbs of another person in the standing \
+                 trial, markers that moved since then"
+            }
+            Measure::NotMeasured => {
+                "number of coordinates of pelvis and legs that nothing recorded determines, so that they have one value"
+            }
             Measure::Mass => {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"
             }
@@ -198,6 +216,8 @@ impl Measure {
             | Measure::UnassignedForces
             | Measure::SilentPlates
             | Measure::ScaleFactors
+            | Measure::WhoseMarkers
+            | Measure::NotMeasured
             | Measure::Mass
             | Measure::Gaps
             | Measure::Jumps
