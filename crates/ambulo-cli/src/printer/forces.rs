@@ -225,7 +225,7 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
 
 fn print_ground(summary: &Summary) -> Result<()> {
     let motion = filter(&summary.filter.motion);
-    let Ground { source, ref rule, threshold_n } = summary.ground;
+    let Ground { source, ref rule, threshold_n, .. } = summary.ground;
     if source == GroundOrigin::None {
         return print_line(&format!("  filter    motion {motion}\n  ground    none"));
     }

@@ -15,6 +15,7 @@ pub(crate) mod stance_heights;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, Tracking};
+use super::timing::{ForceDelay, Tempo};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
@@ -140,6 +141,10 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) mass: &'a BodyMass,
     pub(super) idle: &'a IdleForces,
     pub(super) heights: StanceHeights,
+    /// How late the measured forces are.
+    pub(super) delay: Option<ForceDelay>,
+    /// The clock of the motion, if it is wrong.
+    pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
 }
 
@@ -149,7 +154,7 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        let of_plates = [self.unassigned_forces(), self.silent_plates(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
@@ -427,6 +432,16 @@ impl QualityEvidence<'_> {
                 flights.stated_hz
             )
         })
+    }
+
+    fn force_delay(&self) -> Option<QualityReason> {
+        let delay = self.delay?;
+        Measure::ForceDelay.reason(delay.delay_s.abs(), |_| delay.message())
+    }
+
+    fn tempo(&self) -> Option<QualityReason> {
+        let tempo = self.tempo?;
+        Measure::Tempo.reason(tempo.wrong_by(), |_| tempo.message())
     }
 
     fn cutoff(&self) -> Option<QualityReason> {
