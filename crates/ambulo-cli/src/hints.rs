@@ -33,6 +33,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
+        Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -102,6 +103,7 @@ fn option(field: Field) -> &'static str {
         Field::Cutoff => "`--cutoff HZ|off`",
         Field::Order => "`--order N`",
         Field::Gap => "`--max-gap S`",
+        Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
     }

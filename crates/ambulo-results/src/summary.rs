@@ -206,6 +206,10 @@ pub struct Ground {
     pub measured_share: Option<MeasuredShare>,
     /// A foot counts as unloaded below this vertical force [N].
     pub threshold_n: f64,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; left out where no
+    /// delay was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_delay_s: Option<f64>,
 }
 
 impl Ground {
@@ -322,7 +326,13 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(processing),
-        ground: Ground { source, rule, measured_share: measured_share(outcome), threshold_n: UNLOADED_N },
+        ground: Ground {
+            source,
+            rule,
+            measured_share: measured_share(outcome),
+            threshold_n: UNLOADED_N,
+            force_delay_s: outcome.force_delay_s,
+        },
         convention: None,
         activity: Some(outcome.activity),
         times_and_distances: WalkingSummary::of(&outcome.times_and_distances),

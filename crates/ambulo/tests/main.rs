@@ -160,6 +160,7 @@ mod study_pattern;
 mod study_quality;
 mod study_stance_heights;
 mod study_text_table;
+mod study_timing;
 mod study_trial_list;
 mod synthetic_walk;
 mod times_and_distances;

@@ -106,6 +106,10 @@ codes! {
     MotionUnevenClock "motion.uneven_clock" Warning
         "Samples of the recording are not evenly spaced in time; the recording was resampled."
         "Check for dropped frames.";
+    MotionHeldFrames "motion.held_frames" Warning
+        "Frames repeat the frame before them exactly while the body moves: the recording was played back, resampled or \
+         frozen by a program. They were treated as gaps."
+        "Export the recording again at the rate at which it was made.";
     MotionGapFilled "motion.gap_filled" Warning
         "Missing samples were filled by a spline."
         "Check the filled stretches, or fill them in the program that made the recording.";
@@ -113,8 +117,9 @@ codes! {
         "A motion that drives a scene ends before the scene; its last values are kept until the end."
         "Shorten the scene or lengthen the motion.";
     MotionClock "motion.clock" Warning
-        "The acceleration in flight phases is not gravity, so the stated frame rate is wrong."
-        "Correct the frame rate in the file; the message states the rate that agrees with gravity.";
+        "The stated frame rate is contradicted by gravity in flight, by the balance of the body over its feet, or by \
+         the times in the file; every force depends on it."
+        "Correct the frame rate in the file; the message states what it looks like.";
     // Skeletons.
     BvhAxes "bvh.axes" Note
         "States which axes of the skeleton file are up and forward."
@@ -240,6 +245,10 @@ codes! {
         "The height of the markers is not that of a standing person, and a wrong unit does not explain it."
         "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
+    MarkersHeldInPlace "markers.held_in_place" Warning
+        "A marker stays exactly in place while the others move: a program filled a gap by holding its last position. \
+         These samples were treated as gaps."
+        "Fill the gaps of these markers by another method, or leave them open.";
     MarkersZeroIsGap "markers.zero_is_gap" Warning
         "Positions of exactly 0 0 0 were read as gaps."
         "Export gaps as missing values.";
@@ -456,6 +465,10 @@ codes! {
     LoadsShorterThanMotion "loads.shorter_than_motion" Note
         "Forces were recorded for a part of the motion only; the rest was left out."
         "Nothing to do.";
+    ForcesDelayed "forces.delayed" Warning
+        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual force \
+         and residual moment fall by a tenth or more if the forces are shifted."
+        "Synchronise plates and cameras, or shift the forces by the delay in the message.";
     LoadsNoSide "loads.no_side" Warning
         "A load acts on a body that is neither left nor right; it is used, but not in `grf.mot`."
         "Check the body on which the load acts.";

@@ -1,5 +1,6 @@
 //! Marker trajectories in metres; gaps are not-a-number.
 
+use super::clock::clock_of_table;
 use super::guessed_unit::metres_per_unit;
 use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
@@ -172,7 +173,7 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
     let recording = MarkerRecording {
         name: trc.name.clone(),
         rate_hz: trc.rate_hz,
-        times: trc.times().to_vec(),
+        times: clock_of_table("", trc.times(), Some(trc.frames()), Some(trc.rate_hz), findings),
         markers: paths.collect(),
     };
     checked(recording, findings)

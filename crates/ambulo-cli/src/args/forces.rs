@@ -317,6 +317,11 @@ pub(crate) struct SubjectArgs {
     /// detected].
     #[arg(long, value_name = "N=r|l|off")]
     pub(crate) plate: Vec<PlateFoot>,
+    /// By how much the measured forces were recorded late against the motion [s]; they are moved to earlier times by it.
+    /// Negative if they are early. A warning (forces.delayed) states the delay that was found.
+    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true,
+        hide_default_value = true)]
+    pub(crate) force_delay: f64,
     /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames
     /// for markers, trajectory for keypoints of video].
     #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
@@ -356,6 +361,11 @@ impl SubjectArgs {
     }
 
     fn settings(&self) -> Processing {
-        Processing { fit: self.fit, longest_gap_s: self.max_gap, ..Processing::default() }
+        Processing {
+            fit: self.fit,
+            longest_gap_s: self.max_gap,
+            force_delay_s: self.force_delay,
+            ..Processing::default()
+        }
     }
 }

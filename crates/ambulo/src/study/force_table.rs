@@ -32,6 +32,8 @@ pub(super) struct Walker<'a> {
     pub(super) window: Window,
     /// From the axes of the markers to those of the world.
     pub(super) world_from_lab: Option<&'a Mat3>,
+    /// By how much the forces were recorded late [s].
+    pub(super) delay_s: f64,
 }
 
 impl Walker<'_> {
@@ -69,6 +71,9 @@ impl Walker<'_> {
         findings: &mut Findings,
     ) -> Result<Vec<ForceRecording>, StudyError> {
         let mut forces = force_recordings(self.model, loads, table, findings).map_err(StudyError::ForceTable)?;
+        if self.delay_s.abs() > 0.0 {
+            forces.iter_mut().flat_map(|force| &mut force.times).for_each(|time| *time -= self.delay_s);
+        }
         if let Some(world_from_lab) = self.world_from_lab {
             turn_to_world(&mut forces, world_from_lab, findings);
         }

@@ -152,7 +152,9 @@ impl Source {
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
         let Source { recording, forces, device, added_mass, stated } = self;
-        let statements = Statements { forces, device, added_mass, stated };
+        let statements =
+            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated };
+        let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
         match recording {
             Recording::Coordinates { model, motion } => {
                 statements.observe_coordinates(&model, motion, settings, findings)
@@ -257,6 +259,7 @@ impl Statements {
                     soles: &person.soles,
                     window: settings.window,
                     world_from_lab: None,
+                    delay_s: settings.force_delay_s,
                 };
                 carrying(walker.forces_of_table(&table, findings)?, findings)
             }
@@ -352,6 +355,7 @@ impl Statements {
                     soles: &body.subject.person.soles,
                     window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
                     world_from_lab: Some(&body.laboratory.world_from_lab),
+                    delay_s: settings.force_delay_s,
                 };
                 Ok(carrying(walker.forces_of_table(table, findings)?, findings))
             }

@@ -32,6 +32,9 @@ pub struct Outcome {
     pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.
     pub force_origin: ForceOrigin,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; `None` where no
+    /// delay was found.
+    pub force_delay_s: Option<f64>,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or
     /// are none.
     pub prediction: Option<PredictedGround>,

@@ -13,12 +13,13 @@ use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, ma
 use super::refit::refitted;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
+use super::timing::{PlateTiming, Tempo};
 use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured, reduce_residual,
-    times_and_distances,
+    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, TimesAndDistances, analyse_measured,
+    reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
@@ -94,6 +95,7 @@ fn road(
     let Found { analysis, prediction, measured_events, loads, processing } =
         forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
+    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
@@ -112,6 +114,7 @@ fn road(
         reduction,
         mass,
         idle,
+        timing,
         recorded,
         not_measured,
         processing,
@@ -137,6 +140,8 @@ struct Computed {
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
+    /// What force plates say about the clock.
+    timing: PlateTiming,
     tracking: Option<Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     place_is_derived: bool,
@@ -169,6 +174,10 @@ impl Computed {
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
         report_arms(tracking.as_ref(), findings);
+        let strides = times_and_distances(&body, &person.soles, &analysis);
+        let PlateTiming { delay, tempo } = self.timing;
+        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
+        let tempo = tempo.or_else(by_gait);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -183,17 +192,21 @@ impl Computed {
             idle: &self.idle,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
+            // Late forces do no harm to a prediction that they are only compared with.
+            delay: delay.filter(|_| matches!(force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. })),
+            tempo,
         };
         let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
         let rule = loads.and_then(StanceLoads::rule);
         Outcome {
             stances: listed,
             completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
+            force_delay_s: delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),
             mass: mass.after_reduction(body.mass()),
             tracking,
             activity,
-            times_and_distances: times_and_distances(&body, &person.soles, &analysis),
+            times_and_distances: strides,
             body,
             person,
             analysis,
@@ -235,6 +248,24 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     mass
 }
 
+/// What measured forces say about the clock, also those that a prediction is compared with; a fault is reported.
+fn plate_timing(
+    observed: &Observation,
+    analysis: &Analysis,
+    prediction: Option<&PredictedGround>,
+    processing: &analysis::AnalysisSettings,
+    findings: &mut Findings,
+) -> PlateTiming {
+    let measured = match prediction {
+        Some(predicted) => predicted.measured.as_ref(),
+        None => Some(analysis).filter(|_| !matches!(observed.origin, Origin::Simulation { .. })),
+    };
+    let found = measured.and_then(|measured| PlateTiming::of(observed, measured, processing)).unwrap_or_default();
+    found.delay.iter().for_each(|delay| delay.report(findings));
+    found.tempo.iter().for_each(|tempo| tempo.report(findings));
+    found
+}
+
 fn device(observed: &Observation, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
     let device = observed.device.as_ref().map(|table| device_from_table(&observed.model, table, findings));
     device.transpose().map_err(StudyError::Device)
@@ -267,6 +298,23 @@ fn stances<'p>(
     let known = prediction.and_then(|found| found.stances(analysis, processing)).or(of_measured);
     let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
+}
+
+/// The clock by the gait, for activities in which people take steps on one level.
+fn tempo_of_gait(
+    body: &Model,
+    person: &Person,
+    analysis: &Analysis,
+    stances: &Footfalls,
+    strides: &TimesAndDistances,
+    activity: ActivityKind,
+    findings: &mut Findings,
+) -> Option<Tempo> {
+    let walks = matches!(activity, ActivityKind::Walk | ActivityKind::Turn);
+    let found = Tempo::of_gait(body, &person.soles, analysis, stances, strides, person.leg_length_m);
+    let found = found.filter(|_| walks)?;
+    found.report(findings);
+    Some(found)
 }
 
 /// Recognises the activity; reports a recording without a whole gait cycle, and ground forces that are predicted for an

@@ -55,6 +55,10 @@ pub enum Measure {
     DerivedPlace,
     /// Factor by which gravity in flight contradicts the stated frame rate.
     FrameRate,
+    /// Delay of the measured forces.
+    ForceDelay,
+    /// Factor by which the balance of the body contradicts the stated frame rate.
+    Tempo,
     /// Cut-off frequency that may be too low.
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
@@ -72,7 +76,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 24] = [
+    pub const ALL: [Measure; 26] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -95,6 +99,8 @@ impl Measure {
         Measure::AxialRotation,
         Measure::DerivedPlace,
         Measure::FrameRate,
+        Measure::ForceDelay,
+        Measure::Tempo,
         Measure::LowCutoff,
         Measure::HighCutoff,
     ];
@@ -126,6 +132,8 @@ impl Measure {
             Measure::AxialRotation => AtMost(3.0, 180.0),
             Measure::DerivedPlace => AtMost(0.0, 1.0),
             Measure::FrameRate => AtMost(1.2, WRONG_CLOCK),
+            Measure::ForceDelay => AtMost(0.01, 0.03),
+            Measure::Tempo => AtMost(1.1, 10.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
         }
@@ -195,6 +203,13 @@ impl Measure {
             Measure::FrameRate => {
                 "factor between the stated frame rate and that at which the person falls with g in flight"
             }
+            Measure::ForceDelay => {
+                "time by which measured forces are late or early against the motion, where it is longer than a frame"
+            }
+            Measure::Tempo => {
+                "factor between the stated frame rate and that at which the body balances over its feet, where it is \
+                 clearly another one"
+            }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
         }
@@ -209,6 +224,7 @@ impl Measure {
             Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",
+            Measure::ForceDelay => "s",
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
             | Measure::MeasuredForces
@@ -224,6 +240,7 @@ impl Measure {
             | Measure::FrozenPoints
             | Measure::DerivedPlace
             | Measure::FrameRate
+            | Measure::Tempo
             | Measure::HighCutoff => "1",
         }
     }

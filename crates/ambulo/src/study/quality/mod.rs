@@ -15,6 +15,7 @@ pub(crate) mod stance_heights;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
+use super::timing::{ForceDelay, Tempo};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
@@ -144,6 +145,10 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
     pub(super) heights: StanceHeights,
+    /// How late the measured forces are.
+    pub(super) delay: Option<ForceDelay>,
+    /// The clock of the motion, if it is wrong.
+    pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
 }
 
@@ -155,11 +160,13 @@ impl QualityEvidence<'_> {
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
         let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
+        let of_clock = [self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
                 .into_iter()
                 .chain(of_plates)
+                .chain(of_clock)
                 .chain(of_keypoints)
                 .chain(of_body)
                 .chain(of_person)
@@ -463,6 +470,16 @@ impl QualityEvidence<'_> {
                 flights.stated_hz
             )
         })
+    }
+
+    fn force_delay(&self) -> Option<QualityReason> {
+        let delay = self.delay?;
+        Measure::ForceDelay.reason(delay.delay_s.abs(), |_| delay.message())
+    }
+
+    fn tempo(&self) -> Option<QualityReason> {
+        let tempo = self.tempo?;
+        Measure::Tempo.reason(tempo.wrong_by(), |_| tempo.message())
     }
 
     fn cutoff(&self) -> Option<QualityReason> {
