@@ -1,6 +1,7 @@
 //! The road from a recording to forces.
 
 use super::error::StudyError;
+use super::force_directions::ForceDirections;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::observation::{Observation, ObservedMotion, Origin};
@@ -90,6 +91,8 @@ fn road(
     let Found { analysis, prediction, measured_events } =
         forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
+    let directions = ForceDirections::of(&observed, &analysis.trajectory);
+    directions.report(findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
@@ -106,6 +109,7 @@ fn road(
         reduction,
         mass,
         idle,
+        directions,
         recorded,
         processing,
         force_origin,
@@ -126,6 +130,7 @@ struct Computed {
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
+    directions: ForceDirections,
     tracking: Option<Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     place_is_derived: bool,
@@ -154,6 +159,7 @@ impl Computed {
         };
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
+        let verdict = self.directions.set_aside(verdict, &force_origin);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -163,6 +169,7 @@ impl Computed {
             place_is_derived: self.place_is_derived,
             mass: &mass,
             idle: &self.idle,
+            directions: &self.directions,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
         };

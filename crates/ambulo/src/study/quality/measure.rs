@@ -23,6 +23,8 @@ pub enum Measure {
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
+    /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
+    ForceDirections,
     /// Distance of markers or joints from the fitted body.
     MarkerFit,
     /// Distance of standing markers from the scaled model.
@@ -66,13 +68,14 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 21] = [
+    pub const ALL: [Measure; 22] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
         Measure::UnassignedForces,
         Measure::SilentPlates,
+        Measure::ForceDirections,
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
@@ -101,6 +104,7 @@ impl Measure {
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
+            Measure::ForceDirections => AtLeast(0.5, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
@@ -137,6 +141,10 @@ impl Measure {
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
+            Measure::ForceDirections => {
+                "correlation of a horizontal force that is mirrored or turned with the direction from the centre of \
+                 pressure to the mass centre, over whole steps"
+            }
             Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
@@ -188,6 +196,7 @@ impl Measure {
             | Measure::MeasuredForces
             | Measure::UnassignedForces
             | Measure::SilentPlates
+            | Measure::ForceDirections
             | Measure::ScaleFactors
             | Measure::Mass
             | Measure::Gaps

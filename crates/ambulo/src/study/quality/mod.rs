@@ -12,6 +12,7 @@
 mod measure;
 pub(crate) mod stance_heights;
 
+use super::force_directions::{ForceDirections, is_used};
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, Tracking};
@@ -139,6 +140,7 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) place_is_derived: bool,
     pub(super) mass: &'a BodyMass,
     pub(super) idle: &'a IdleForces,
+    pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
     pub(super) verdict: &'a Verdict,
 }
@@ -149,7 +151,7 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        let of_plates = [self.unassigned_forces(), self.silent_plates(), self.force_directions()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
@@ -232,6 +234,13 @@ impl QualityEvidence<'_> {
         Measure::SilentPlates.reason(share, |_| {
             format!("no load was measured in {} of the stances on force plates, first {first}", percent(share))
         })
+    }
+
+    /// A wrong sign or direction is in the moments, unless the forces are predicted.
+    fn force_directions(&self) -> Option<QualityReason> {
+        let (sentence, agreement) = self.directions.worst()?;
+        let reason = Measure::ForceDirections.reason(agreement, |_| sentence.to_owned());
+        reason.filter(|_| is_used(&self.force_origin))
     }
 
     fn fit(&self) -> Option<&MarkerFit> {
