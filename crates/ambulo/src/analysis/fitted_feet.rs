@@ -46,7 +46,7 @@ pub(super) fn with_fitted_feet(
     Some(with_places(&of_model, model, &trajectory, &ends))
 }
 
-/// The ends of feet (0: heel, 1: toe) that no marker shows in most frames, of feet that another marker shows.
+/// The ends of feet (0: heel, 1: toe) that no marker shows in most frames, of feet whose ankle is seen.
 fn lacking(points: &MarkerRecording, landmarks: &Landmarks) -> Vec<(Side, usize)> {
     let is_shown = |marker: usize| {
         let path = &points.markers[marker];
@@ -54,7 +54,8 @@ fn lacking(points: &MarkerRecording, landmarks: &Landmarks) -> Vec<(Side, usize)
     };
     let of_side = |side: Side| {
         let foot = landmarks.foot(side);
-        let is_foot = foot.all().any(is_shown);
+        // Without an ankle, the markers hardly show where the leg leads.
+        let is_foot = foot.ankle.is_some_and(is_shown);
         let ends = [foot.heel.or(foot.ankle), foot.toe.or(foot.side)];
         let unseen = move |end: &usize| is_foot && !ends[*end].is_some_and(is_shown);
         (0..2).filter(unseen).map(|end| (side, end)).collect::<Vec<_>>()
