@@ -25,6 +25,9 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::PlatesTwoFeet | Code::PlatesUnassigned => {
             "`--plate 1=r` assigns the right foot to plate 1; give a standing trial with `--static`"
         }
+        Code::PlatesMirrored | Code::PlatesCornersUnclear => {
+            "`--plate 1=flip-x`, `1=flip-y`, `1=turn-90`, `1=turn-180` or `1=turn-270` correct plate 1"
+        }
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
         Code::LoadsUnderOtherFoot => {
@@ -91,7 +94,7 @@ fn option(field: Field) -> &'static str {
         Field::Earth => "`--earth X,Y,Z`",
         Field::ForceTable => "`--grf FILE`",
         Field::Loads => "`--loads FILE`",
-        Field::Plates => "`--plate N=r|l|off`",
+        Field::Plates => "`--plate N=r|l|off|flip-x|flip-y|turn-90|turn-180|turn-270`",
         Field::AddedMass => "`--add-mass BODY:KG[:X,Y,Z]`",
         Field::Feet => "`--right BODY:PREFIX`, `--left BODY:PREFIX`",
         Field::From => "`--from T`",

@@ -123,6 +123,7 @@ mod osim_export;
 mod osim_import;
 mod personal_ground;
 mod physical_walk;
+mod plate_orders;
 mod plug_in_gait;
 mod prediction_checks;
 mod quality;

@@ -400,6 +400,9 @@ codes! {
     PlatesUnitUnknown "plates.unit_unknown" Warning
         "The unit of a force is unknown; it was read as newtons."
         "Correct the unit in the file.";
+    PlatesUnitByWeight "plates.unit_by_weight" Warning
+        "By the unit in the file, steps on the plates weigh what no person does; another unit fits and was used."
+        "Correct the unit, the scale or the calibration of the channels in the file.";
     PlatesPolynomial "plates.polynomial" Note
         "The file has a polynomial that corrects the centre of pressure; it was not used."
         "Nothing to do; the correction is some millimetres.";
@@ -427,6 +430,21 @@ codes! {
     PlatesCenterOutside "plates.center_outside" Warning
         "The centre of pressure is often outside its plate."
         "Check CORNERS, ORIGIN, CHANNEL and the units of the plate in the file.";
+    PlatesCornersOrdered "plates.corners_ordered" Warning
+        "With the corners in the order of the file the loads of a plate lie beside the feet, with another order under \
+         them; the other order was used."
+        "Correct FORCE_PLATFORM:CORNERS in the file.";
+    PlatesCornersUnclear "plates.corners_unclear" Warning
+        "The loads of a plate lie beside the feet; several orders of its corners put them under the feet, and none was \
+         used."
+        "Correct FORCE_PLATFORM:CORNERS in the file, or state how the plate is turned.";
+    PlatesMirrored "plates.mirrored" Warning
+        "A horizontal force of a plate or a force table points away from the mass centre where it must point towards \
+         it: it is mirrored or turned."
+        "State the correction of the plate, or correct the sign of the channel or column.";
+    PlatesCrossTalk "plates.cross_talk" Warning
+        "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."
+        "Check cables and amplifiers of the plates.";
     PlatesPartial "plates.partial" Warning
         "Only part of a foot's load was measured."
         "Choose a step that is wholly on a plate.";
@@ -453,6 +471,14 @@ codes! {
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
         "Rotate the forces of the table if their axes are different.";
+    LoadsTurned "loads.turned" Warning
+        "The forces of a table do not act along y, upwards, but along another axis: the table has other axes; it was \
+         turned."
+        "Turn the table so that y is up and x forward, or say so to the program that wrote it.";
+    LoadsUnitByWeight "loads.unit_by_weight" Warning
+        "Steps in a force table weigh what no person does in newtons, or its moments are too large for N.m; another \
+         unit fits and was used."
+        "Write newtons, metres and newton metres.";
     LoadsSwitchedOff "loads.switched_off" Note
         "A load is switched off in its file and was not used."
         "Nothing to do.";

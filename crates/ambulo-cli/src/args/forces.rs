@@ -313,9 +313,10 @@ pub(crate) struct SubjectArgs {
     /// are added.
     #[arg(long, value_name = "FILE")]
     pub(crate) marker_set: Option<PathBuf>,
-    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default:
-    /// detected].
-    #[arg(long, value_name = "N=r|l|off")]
+    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; flip-x, flip-y (a channel has the
+    /// wrong sign), turn-90, turn-180 and turn-270 (to the left, seen from above) correct it, also together as in
+    /// 1=r+flip-y; may be repeated [default: detected].
+    #[arg(long, value_name = "N=r|l|off|...")]
     pub(crate) plate: Vec<PlateFoot>,
     /// By how much the measured forces were recorded late against the motion [s]; they are moved to earlier times by it.
     /// Negative if they are early. A warning (forces.delayed) states the delay that was found.

@@ -122,7 +122,7 @@ def forces(
     right, left : str, optional
         Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     plates : mapping of int to str, optional
-        Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+        Foot of each force plate, counted from 1, and corrections of its signs and directions: ``{1: "r", 2: "off", 3: "flip-y"}``.
     trial : int or str, optional
         The trial of a ``.b3d``: its number, counted from 1, or its name. All trials take one call each.
     smpl : str, path-like or bytes, optional

@@ -5,6 +5,7 @@
 //! trial, or take it unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the
 //! plates.
 
+use super::fitted_feet::with_fitted_feet;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
@@ -13,7 +14,7 @@ use super::progress::{Progress, Stage};
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
-use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates};
+use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::kinematics::marker_fit::{
@@ -162,9 +163,12 @@ impl OnFloor<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<BodyInMotion, MarkerTrialError> {
         let OnFloor { axes, plates, points, set, plate_feet } = self;
+        let shown = with_fitted_feet(points, set, &subject, &fit.motion);
+        let points = shown.as_ref().unwrap_or(points);
         let landmarks = Landmarks::named(points, set);
         let feet = foot_motion_of_landmarks(points, &landmarks, findings);
         let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
+        let plates = plates_under_moving_feet(&moving, plates, findings);
         let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
         Ok(BodyInMotion {

@@ -6,6 +6,7 @@ mod cycles;
 mod event_agreement;
 mod events;
 pub mod feasibility;
+mod fitted_feet;
 pub(crate) mod foot_progression;
 mod ground_agreement;
 pub(crate) mod identity;

@@ -114,7 +114,7 @@ pub struct Job {
     pub sensors: SensorStatements,
     /// Files of measured ground forces.
     pub forces: ForceFiles,
-    /// Force plates of which the laboratory knows the foot.
+    /// Force plates of which the laboratory knows the foot, or which signs and directions are wrong.
     #[serde(deserialize_with = "json::each")]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub plates: Vec<PlateFoot>,

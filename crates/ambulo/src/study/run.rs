@@ -1,6 +1,7 @@
 //! The road from a recording to forces.
 
 use super::error::StudyError;
+use super::force_directions::ForceDirections;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::measured::{Measured, StanceLoads, measured};
@@ -96,6 +97,8 @@ fn road(
         forces(&observed, motion, processing, settings, findings, progress)?;
     let mass = body_mass(&observed, &analysis, findings);
     let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
+    let directions = ForceDirections::of(&observed, &analysis.trajectory);
+    directions.report(findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
@@ -115,6 +118,7 @@ fn road(
         mass,
         idle,
         timing,
+        directions,
         recorded,
         not_measured,
         processing,
@@ -142,6 +146,7 @@ struct Computed {
     idle: IdleForces,
     /// What force plates say about the clock.
     timing: PlateTiming,
+    directions: ForceDirections,
     tracking: Option<Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     place_is_derived: bool,
@@ -173,6 +178,7 @@ impl Computed {
         };
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
+        let verdict = self.directions.set_aside(verdict, &force_origin);
         report_arms(tracking.as_ref(), findings);
         let strides = times_and_distances(&body, &person.soles, &analysis);
         let PlateTiming { delay, tempo } = self.timing;
@@ -190,6 +196,7 @@ impl Computed {
             not_measured: &self.not_measured,
             model: &body,
             idle: &self.idle,
+            directions: &self.directions,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
             // Late forces do no harm to a prediction that they are only compared with.

@@ -25,6 +25,8 @@ pub enum Measure {
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
+    /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
+    ForceDirections,
     /// Distance of markers or joints from the fitted body.
     MarkerFit,
     /// Distance of standing markers from the scaled model.
@@ -76,7 +78,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 26] = [
+    pub const ALL: [Measure; 27] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -84,6 +86,7 @@ impl Measure {
         Measure::UncheckedForces,
         Measure::UnassignedForces,
         Measure::SilentPlates,
+        Measure::ForceDirections,
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
@@ -117,6 +120,7 @@ impl Measure {
             Measure::UncheckedForces => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
+            Measure::ForceDirections => AtLeast(0.5, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
@@ -161,6 +165,10 @@ impl Measure {
             }
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
+            Measure::ForceDirections => {
+                "correlation of a horizontal force that is mirrored or turned with the direction from the centre of \
+                 pressure to the mass centre, over whole steps"
+            }
             Measure::MarkerFit => {
                 "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms differ, of \
                  the worst of them without the arms"
@@ -231,6 +239,7 @@ impl Measure {
             | Measure::UncheckedForces
             | Measure::UnassignedForces
             | Measure::SilentPlates
+            | Measure::ForceDirections
             | Measure::ScaleFactors
             | Measure::WhoseMarkers
             | Measure::NotMeasured

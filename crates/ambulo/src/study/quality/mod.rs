@@ -12,6 +12,7 @@
 mod measure;
 pub(crate) mod stance_heights;
 
+use super::force_directions::{ForceDirections, is_used};
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
@@ -144,6 +145,7 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
+    pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
     /// How late the measured forces are.
     pub(super) delay: Option<ForceDelay>,
@@ -160,13 +162,13 @@ impl QualityEvidence<'_> {
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
         let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
-        let of_clock = [self.force_delay(), self.tempo()];
+        let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
                 .into_iter()
                 .chain(of_plates)
-                .chain(of_clock)
+                .chain(of_recording)
                 .chain(of_keypoints)
                 .chain(of_body)
                 .chain(of_person)
@@ -255,6 +257,13 @@ impl QualityEvidence<'_> {
         Measure::SilentPlates.reason(share, |_| {
             format!("no load was measured in {} of the stances on force plates, first {first}", percent(share))
         })
+    }
+
+    /// A wrong sign or direction is in the moments, unless the forces are predicted.
+    fn force_directions(&self) -> Option<QualityReason> {
+        let (sentence, agreement) = self.directions.worst()?;
+        let reason = Measure::ForceDirections.reason(agreement, |_| sentence.to_owned());
+        reason.filter(|_| is_used(&self.force_origin))
     }
 
     fn fit(&self) -> Option<&MarkerFit> {
