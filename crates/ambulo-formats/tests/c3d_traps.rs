@@ -504,7 +504,7 @@ fn other_files_are_refused() {
     let error = |bytes: &[u8]| C3d::read(bytes).unwrap_err().to_string();
     assert_eq!(error(b""), "the file is empty; expected a C3D file, whose second byte is the key 80 (0x50)");
     assert_eq!(
-        error(b"PathFileType\t4"),
+        error(b"Path\t4"),
         "byte 1: found key 97; expected the key 80 (0x50) of a C3D file; the file may have another format"
     );
     assert_eq!(error(&[2, 80, 0]), "the file ends after 3 bytes; expected a header of 512 bytes. Is it truncated?");
