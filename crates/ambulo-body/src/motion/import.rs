@@ -3,7 +3,7 @@
 use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
-use crate::model::{Coordinate, CoordinateKind, Model};
+use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model};
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
@@ -29,7 +29,7 @@ pub fn coordinates_from_table(
 ) -> Result<Motion, MotionError> {
     let kept = rows_with_rising_time(table, findings)?;
     let times = table.times().unwrap_or_default();
-    let in_degrees = table.in_degrees.unwrap_or_else(|| {
+    let in_degrees = table.in_degrees.or_else(|| unit_of_names(table)).unwrap_or_else(|| {
         findings
             .report(Code::MotionUnitUnstated, "the motion's header has no `inDegrees`; its angles are read as radians");
         false
@@ -41,8 +41,9 @@ pub fn coordinates_from_table(
     };
     let mut unknown = Vec::new();
     for (name, values) in table.columns().skip(1) {
+        let (name, _) = without_unit(name);
         let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
-        match plain.and_then(|n| model.coordinate(n)) {
+        match plain.and_then(|n| coordinate_named(model, n)).filter(|id| motion.columns[id.index()].is_none()) {
             Some(id) => {
                 let turn = in_degrees && model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
                 let convert = |x: f64| if turn { x.to_radians() } else { x };
@@ -61,6 +62,32 @@ pub fn coordinates_from_table(
         jumps::report_jumps(model, &motion, findings);
     }
     Ok(motion)
+}
+
+/// The coordinate with this name; if there is none, the only one with this name in other letters.
+fn coordinate_named(model: &Model, name: &str) -> Option<CoordinateId> {
+    let is_same = |id: &CoordinateId| model.coordinates()[id.index()].name.eq_ignore_ascii_case(name);
+    let mut others = model.coordinate_ids().filter(is_same);
+    model.coordinate(name).or_else(|| others.next().filter(|_| others.next().is_none()))
+}
+
+/// A name without the unit in brackets behind it, and whether this is a unit of angles: `Some(true)` for degrees.
+fn without_unit(name: &str) -> (&str, Option<bool>) {
+    let in_brackets = |open: char, close: char| name.trim_end().strip_suffix(close)?.rsplit_once(open);
+    let Some((plain, unit)) = in_brackets('(', ')').or_else(|| in_brackets('[', ']')) else { return (name, None) };
+    match unit.trim().to_lowercase().as_str() {
+        "deg" | "degrees" | "degree" | "°" => (plain.trim_end(), Some(true)),
+        "rad" | "radians" => (plain.trim_end(), Some(false)),
+        "m" => (plain.trim_end(), None),
+        _ => (name, None),
+    }
+}
+
+/// Whether the names of the columns state degrees; `None` if they state nothing, or contradict each other.
+fn unit_of_names(table: &Table) -> Option<bool> {
+    let mut units = table.names().iter().filter_map(|name| without_unit(name).1);
+    let first = units.next()?;
+    units.all(|unit| unit == first).then_some(first)
 }
 
 fn no_coordinate(model: &Model, table: &Table) -> MotionError {

@@ -87,9 +87,17 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let Found { analysis, prediction, measured_events } =
-        forces(&observed, motion, processing, settings, findings, progress)?;
-    let mass = body_mass(&observed, &analysis, findings);
+    let mut observed = observed;
+    let kept = observed.takes_weighed_mass().then(|| (motion.clone(), findings.clone()));
+    let mut found = forces(&observed, motion, processing, settings, findings, progress)?;
+    let mut mass = body_mass(&observed, &found.analysis, findings);
+    if let Some(((motion, before), kg)) = kept.zip(mass.in_place_of_the_models()) {
+        *findings = before;
+        observed.scale_to(kg, findings)?;
+        found = forces(&observed, motion, processing, settings, findings, progress)?;
+        mass = body_mass(&observed, &found.analysis, findings);
+    }
+    let Found { analysis, prediction, measured_events } = found;
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
