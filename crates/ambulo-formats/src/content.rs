@@ -206,15 +206,20 @@ impl Error {
 
     /// The same error, unless a program that took the binary file for text has changed its bytes.
     pub(crate) fn or_changed_as_text(self, bytes: &[u8]) -> Error {
-        let found = match std::str::from_utf8(bytes) {
-            Ok(text) if text.chars().filter(|c| !c.is_ascii()).count() >= ENOUGH => {
-                "a binary file that was saved as text (UTF-8)"
-            }
-            _ if has_text_line_ends(bytes) => "a binary file whose line ends were changed as in a text",
-            _ => return self,
-        };
+        let Some(found) = was_changed_as_text(bytes) else { return self };
         let remedy = "copy it again from its source as it is (FTP: binary mode; git: `*.c3d binary` in .gitattributes)";
         Error::OtherContent { found, expected: C3D, remedy }
+    }
+}
+
+/// What a program that took a binary file for text has made of it; `None` if its bytes do not show that.
+pub(crate) fn was_changed_as_text(bytes: &[u8]) -> Option<&'static str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) if text.chars().filter(|c| !c.is_ascii()).count() >= ENOUGH => {
+            Some("a binary file that was saved as text (UTF-8)")
+        }
+        _ if has_text_line_ends(bytes) => Some("a binary file whose line ends were changed as in a text"),
+        _ => None,
     }
 }
 

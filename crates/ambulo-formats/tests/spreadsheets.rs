@@ -73,8 +73,7 @@ fn a_spreadsheets_separators_are_read_and_named() {
         assert!(trc.markers()[1].positions_m[0][0].is_nan());
         assert_eq!(remarks, [remark]);
     }
-    let (trc, _) =
-        markers(&MARKERS.replace("PathFileType", "\"PathFileType\"").replace("DataRate\tC", "\"DataRate\"\tC"));
+    let (trc, _) = markers(&MARKERS.replace("PathFileType", "\"PathFileType\"").replace("Frame#", "\"Frame#\""));
     assert_eq!(trc.markers()[0], original.markers()[0]);
 }
 

@@ -139,6 +139,11 @@ fn a_header_that_states_no_unit_is_read_as_radians_with_a_warning() {
     assert_eq!(motion.unwrap().columns[0], Some(vec![1.5]));
     assert_eq!(codes(&findings), [(Code::MotionUnitUnstated, 1)]);
     assert_eq!(findings.as_slice()[0].severity(), Severity::Warning);
+    // More than a turn is no angle in radians.
+    let (motion, findings) = import(&storage("", &format!("{NAMES}0.0\t90\t0.5\n")));
+    assert_eq!(motion.unwrap().columns[0], Some(vec![std::f64::consts::FRAC_PI_2]));
+    assert_eq!(codes(&findings), [(Code::MotionUnitUnstated, 1)]);
+    assert!(findings.as_slice()[0].message.contains("read as degrees, because they exceed 7"));
 }
 
 #[test]

@@ -69,7 +69,8 @@ codes! {
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
-        "The file does not state whether its angles are in degrees or radians; they were read as radians."
+        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as degrees if \
+         they are too large for radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
         "Angles were read as radians, but they are as large as angles in degrees."

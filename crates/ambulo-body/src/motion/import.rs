@@ -4,6 +4,7 @@ use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model};
+use crate::numerics::median;
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
@@ -30,9 +31,14 @@ pub fn coordinates_from_table(
     let kept = rows_with_rising_time(table, findings)?;
     let times = table.times().unwrap_or_default();
     let in_degrees = table.in_degrees.or_else(|| unit_of_names(table)).unwrap_or_else(|| {
-        findings
-            .report(Code::MotionUnitUnstated, "the motion's header has no `inDegrees`; its angles are read as radians");
-        false
+        let unit = unstated_unit(model, table);
+        let reason = match unit {
+            true => format!("degrees, because they exceed {LARGEST_PLAUSIBLE_ANGLE}"),
+            false => "radians".to_owned(),
+        };
+        let message = format!("the motion's header has no `inDegrees`; its angles are read as {reason}");
+        findings.report(Code::MotionUnitUnstated, message);
+        unit
     });
     let mut motion = Motion {
         origin: origin.to_owned(),
@@ -62,6 +68,20 @@ pub fn coordinates_from_table(
         jumps::report_jumps(model, &motion, findings);
     }
     Ok(motion)
+}
+
+/// Whether angles without a stated unit are in degrees: as radians they would be more than a turn.
+fn unstated_unit(model: &Model, table: &Table) -> bool {
+    let of_coordinate = |(name, values): (&str, &[f64])| {
+        let (name, _) = without_unit(name);
+        let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
+        let id = plain.and_then(|name| coordinate_named(model, name))?;
+        let is_rotation = model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+        let sizes = values.iter().map(|x| x.abs()).filter(|x| x.is_finite());
+        is_rotation.then(|| median(sizes).unwrap_or(0.0))
+    };
+    // The median of each column: a few wrong rows are no unit.
+    table.columns().skip(1).filter_map(of_coordinate).any(|usual| usual > LARGEST_PLAUSIBLE_ANGLE)
 }
 
 /// The coordinate with this name; if there is none, the only one with this name in other letters.

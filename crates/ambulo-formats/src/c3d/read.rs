@@ -11,8 +11,14 @@ use crate::error::{Error, Remark};
 
 /// `choice`: all points if it is `None`.
 pub(super) fn read(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {
-    let read = read_bytes(bytes, choice);
-    read.map_err(|error| error.or_changed_as_text(bytes).or_other_content(bytes, content::C3D))
+    match read_bytes(bytes, choice) {
+        Ok((c3d, _)) if c3d.frames() == 0 && content::was_changed_as_text(bytes).is_some() => {
+            let expected = "a recorded trial".to_owned();
+            Err(Error::CutOff { offset: bytes.len(), expected }.or_changed_as_text(bytes))
+        }
+        Err(error) => Err(error.or_changed_as_text(bytes).or_other_content(bytes, content::C3D)),
+        read => read,
+    }
 }
 
 fn read_bytes(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {

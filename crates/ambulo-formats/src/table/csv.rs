@@ -59,7 +59,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remar
     if let Some(units) = units {
         units.apply(&mut table);
     }
-    without_unnamed(&mut table, named)?;
+    gaps -= without_unnamed(&mut table, named)?;
     remarks.extend(empty_cells(gaps));
     Ok((table, remarks))
 }
@@ -90,19 +90,22 @@ fn starts_with_numbers(lines: &Lines<'_>) -> Result<bool, Error> {
 }
 
 /// Removes columns without a name: of cells that are empty, because rows end with a separator, and a first one that
-/// counts the rows, as pandas writes it.
-fn without_unnamed(table: &mut Table, line: usize) -> Result<(), Error> {
+/// counts the rows, as pandas writes it. Returns the number of these empty cells.
+fn without_unnamed(table: &mut Table, line: usize) -> Result<usize, Error> {
     let counts = |values: &[f64]| values.iter().enumerate().all(|(row, value)| *value - values[0] == row as f64);
+    let mut empty = 0;
     for k in (0..table.names.len()).rev().filter(|k| table.names[*k].is_empty()).collect::<Vec<_>>() {
         let values = &table.data[k];
-        if !(values.iter().all(|value| value.is_nan()) || (k == 0 && counts(values))) {
+        let is_empty = values.iter().all(|value| value.is_nan());
+        if !(is_empty || (k == 0 && counts(values))) {
             let found = format!("no name for column {}", k + 1);
             return Err(Error::Line { line, found, expected: "a name for every column".into() });
         }
+        empty += if is_empty { values.len() } else { 0 };
         table.names.remove(k);
         table.data.remove(k);
     }
-    Ok(())
+    Ok(empty)
 }
 
 /// The remark on empty cells.

@@ -15,12 +15,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
     read_text(&text.bytes, text.remarks).map_err(|error| error.or_other_content(bytes, content::TRC))
 }
 
-/// The first line shows the separator; numbers begin in the third one.
+/// The first line shows the separator; rows of numbers begin below the fourth one.
 fn layout(lines: &[&str]) -> Option<Layout> {
     let mut filled = lines.iter().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let is_first = |cell: &str| cell.eq_ignore_ascii_case(FIRST_WORD);
     let separator = separator_behind(filled.next()?.1, is_first)?;
-    Some(Layout { separator, last_header_line: filled.next()?.0 })
+    Some(Layout { separator, last_header_line: filled.nth(2)?.0 })
 }
 
 fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Trc, Vec<Remark>), Error> {
