@@ -60,7 +60,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
-    let mut options: Vec<String> = fields.map(|field| option(*field).to_owned()).collect();
+    let mut options: Vec<String> = fields.filter_map(|field| option(*field)).map(str::to_owned).collect();
     let wrong = error.chain().filter_map(|cause| cause.downcast_ref::<WrongFields>());
     options.extend(wrong.flat_map(|wrong| wrong.fields).map(|field| format!("`--{}`", field.replace('_', "-"))));
     let options = (!options.is_empty()).then(|| options.join(", "));
@@ -77,10 +77,10 @@ pub(crate) fn causes(error: &anyhow::Error) -> impl Iterator<Item = &(dyn Error 
     })
 }
 
-/// The option that states a field of a job.
-fn option(field: Field) -> &'static str {
-    match field {
-        Field::Recording => "the recording stands before the options",
+/// The option that states a field of a job; the recording has none.
+fn option(field: Field) -> Option<&'static str> {
+    let option = match field {
+        Field::Recording => return None,
         Field::Trial => "`--trial N|NAME|all`",
         Field::Standing => "`--static FILE`",
         Field::Model => "`--model FILE.osim`",
@@ -109,7 +109,8 @@ fn option(field: Field) -> &'static str {
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
-    }
+    };
+    Some(option)
 }
 
 fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
@@ -164,7 +165,12 @@ fn of_analysis(error: &AnalysisError) -> Option<&'static str> {
 fn of_motion(error: &MotionError) -> Option<&'static str> {
     match error {
         MotionError::NoColumn { .. } => Some("`--right` and `--left` choose other columns"),
-        MotionError::Gap { .. } | MotionError::ForceNotFinite { .. } | MotionError::FarRange { .. } => Some(RANGE),
+        MotionError::Gap { .. }
+        | MotionError::NoRows { .. }
+        | MotionError::ForceNotFinite { .. }
+        | MotionError::Outside { .. }
+        | MotionError::TooShort { .. }
+        | MotionError::FarRange { .. } => Some(RANGE),
         _ => None,
     }
 }

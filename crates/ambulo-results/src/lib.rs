@@ -49,7 +49,7 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use sound::{EXPECTED, is_sound};
 pub use state_table::states_csv;
-pub use stream_columns::{stream_columns, stream_row};
+pub use stream_columns::{columns_of_predictions, stream_columns, stream_row};
 pub use subject_summary::{
     EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
     SegmentSummary, SubjectSummary,

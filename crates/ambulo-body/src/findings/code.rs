@@ -69,7 +69,8 @@ codes! {
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
-        "The file does not state whether its angles are in degrees or radians; they were read as radians."
+        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as degrees if \
+         they are too large for radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
         "Angles were read as radians, but they are as large as angles in degrees."
@@ -93,9 +94,13 @@ codes! {
         "The recording has no column for coordinates of the model; their default values were used throughout."
         "Record these coordinates, or check that their constant values suit the motion.";
     MotionCoupledMismatch "motion.coupled_mismatch" Warning
-        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values \
-         were used."
+        "Recorded values of a coordinate differ from those of its coupler, or those of a coordinate that the model \
+         determines have gaps; the model's values were used."
         "Check that recording and model belong together.";
+    MotionModelReplaced "motion.model_replaced" Warning
+        "Recorded values of a coordinate that the model locks or prescribes differ from those of the model; the recorded \
+         values were used, as in OpenSim's inverse dynamics."
+        "Check that recording and model belong together; without the column, the values of the model are used.";
     MotionOutOfRange "motion.out_of_range" Warning
         "A coordinate leaves the range that the model allows."
         "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion \
@@ -227,8 +232,9 @@ codes! {
         "Neither a force plate nor the posture shows which axis is up."
         "Name heel, toe and pelvis markers as a marker set does.";
     LaboratoryForwardUnclear "laboratory.forward_unclear" Warning
-        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing."
-        "Name heel, toe and pelvis markers as a marker set does.";
+        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing or \
+         point in different directions."
+        "Name heel, toe and pelvis markers as a marker set does; check whether left and right are exchanged.";
     LaboratoryBackwards "laboratory.backwards" Warning
         "The body walks backwards; forward is the direction that it faces."
         "Check left and right markers if the person walked forwards.";
@@ -381,6 +387,10 @@ codes! {
         "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % \
          and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
+    MassReplaced "mass.replaced" Warning
+        "Force plates carry another mass than the model has, and none is stated; the masses of the model were scaled to \
+         the weighed one."
+        "State the body mass if the weighed one is wrong; the mass of the model keeps the model as it is.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
         "Nothing to do.";

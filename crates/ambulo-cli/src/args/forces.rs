@@ -1,6 +1,8 @@
 //! Options of `ambulo forces`.
 
-use super::values::{number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds};
+use super::values::{
+    kilograms, metres, number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds,
+};
 use super::{CheckArgs, Handling, OUT, PrintArgs, ReplaceArgs};
 use crate::request::{CalibrateRequest, ForcesRequest};
 use ambulo::analysis::Adjustable;
@@ -297,11 +299,11 @@ pub(crate) struct SubjectArgs {
     /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A
     /// given model is scaled to it [default: as measured by the force plates or stated in the recording; with --model
     /// the model's].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = kilograms)]
     pub(crate) mass: Option<f64>,
     /// Stature [m]; a given model is scaled to it [default: as stated in the recording, or estimated from the markers;
     /// with --model the model's].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = metres)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments())]

@@ -1,8 +1,8 @@
 //! Prints the outcome of `forces`, `walk` and `demo`.
 
 use super::{
-    comparison, consistency, counted_reasons, print_findings, print_line, print_verdict, print_warnings, quoted,
-    reasons_shown, subject,
+    comparison, consistency, counted_reasons, print_findings, print_json, print_line, print_verdict, print_warnings,
+    quoted, reasons_shown, subject,
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
@@ -23,7 +23,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
     }
     if print.json {
         print_findings(&summary.findings);
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     if print.verbose {
         print_findings(&summary.findings);

@@ -295,12 +295,23 @@ fn with_requested_window(
     motion: &Motion,
     plates: &[ForceRecording],
 ) -> MotionError {
-    let MotionError::TooShort { found, expected, .. } = error else { return error };
+    let (found, expected) = match error {
+        MotionError::TooShort { found, expected, .. } => (found, expected),
+        MotionError::Outside { .. } => (0, 1),
+        other => return other,
+    };
     let whole = Window { from_s: motion.times.first().copied(), to_s: motion.times.last().copied() };
     let both = plates.iter().fold(whole, |window, plate| window.overlap(recorded(plate)));
     let (first_s, last_s) = (both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN));
     let (from_s, to_s) = (requested.from_s.unwrap_or(first_s), requested.to_s.unwrap_or(last_s));
-    MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
+    let forces = plates.iter().map(recorded).reduce(Window::overlap);
+    let span = |window: Window| [window.from_s.unwrap_or(f64::NAN), window.to_s.unwrap_or(f64::NAN)];
+    match forces {
+        Some(forces) if first_s > last_s || requested == Window::default() => {
+            MotionError::NoCommonTime { found, motion_s: span(whole), forces_s: span(forces) }
+        }
+        _ => MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }.or_outside(),
+    }
 }
 
 pub(super) fn recorded(plate: &ForceRecording) -> Window {

@@ -5,7 +5,7 @@ use super::files::{ending, read as read_file};
 use super::laboratory::read_laboratory_file;
 use super::model_file::read_model;
 use super::values::PlateFoot;
-use super::{Job, Reading, ground_table, size};
+use super::{Job, Reading, ground_table};
 use crate::model::marker_set::MarkerSet;
 use crate::study::{MarkerBody, MarkerSource, PlateAssignment, Source, StandingTrial, standing_trial};
 use std::path::Path;
@@ -61,7 +61,6 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         }
         return Ok(());
     }
-    size::check(job.size)?;
     if job.size.height_m.is_some() && job.standing.is_some() {
         let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
         return Err(JobError::new(&[Field::Height], what));

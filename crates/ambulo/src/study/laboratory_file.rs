@@ -189,8 +189,10 @@ impl LaboratoryFile {
         label: &str,
         findings: &mut Findings,
     ) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let (trc, remarks) = Trc::read(bytes.as_ref())?;
+        let (mut trc, remarks) = Trc::read(bytes.as_ref())?;
         drop(bytes);
+        // Errors name the file, not the path in its first line.
+        trc.name.clear();
         report_remarks(label, &remarks, findings);
         let mut markers = markers_from_trc(&trc, findings)?;
         markers.name = label.to_owned();

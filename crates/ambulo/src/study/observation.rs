@@ -49,9 +49,12 @@ pub(super) struct Observation {
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
     pub(super) device: Option<Table>,
+    /// Whether the mass is that of a given model alone: none is stated, and no load was added.
+    pub(super) has_models_mass: bool,
 }
 
 /// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+#[derive(Clone)]
 pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.
     Recorded(Motion),
@@ -101,6 +104,26 @@ impl Observation {
         }
         let body = self.origin.followed().map(|followed| &followed.body);
         Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
+    }
+
+    /// Whether a mass that force plates measure replaces that of the model.
+    pub(super) fn takes_weighed_mass(&self) -> bool {
+        self.has_models_mass && (!self.forces.is_empty() || self.known_mass.standing.is_some())
+    }
+
+    /// Scales the masses of the model to a weighed body mass [kg].
+    pub(super) fn scale_to(&mut self, kg: f64, findings: &mut Findings) -> Result<(), StudyError> {
+        let own_kg = self.model.mass();
+        let factors = vec![Vec3::repeat(1.0); self.model.bodies().len()];
+        self.model = self.model.scaled(&factors, Some(kg)).map_err(StudyError::Size)?;
+        self.person.mass_kg *= kg / own_kg;
+        let message = format!(
+            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and inertias of \
+             the model were multiplied by {:.3}",
+            kg / own_kg
+        );
+        findings.report(Code::MassReplaced, message);
+        Ok(())
     }
 
     /// Whether forces are predicted: if that is wanted, or if no forces were measured.
@@ -190,6 +213,7 @@ impl Statements {
             origin: Origin::Simulation { rule },
             known_mass,
             device: self.device,
+            has_models_mass: false,
         };
         Ok((observation, ObservedMotion::Complete(trajectory)))
     }
@@ -267,9 +291,12 @@ impl Statements {
             }
         };
         let known_mass = KnownMass::stated(self.stated.mass_kg);
+        let has_models_mass =
+            matches!(origin, Origin::Coordinates) && self.stated.mass_kg.is_none() && self.added_mass.is_empty();
         let device = self.device;
+        let is_from_plates = false;
         let observation =
-            Observation { person, model, forces, idle, origin, is_from_plates: false, known_mass, device };
+            Observation { person, model, forces, idle, origin, is_from_plates, known_mass, device, has_models_mass };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
@@ -301,6 +328,7 @@ impl Statements {
             })),
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,
+            has_models_mass: false,
         };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
@@ -323,7 +351,9 @@ impl Statements {
             idle.report(findings);
         }
         let motion = body.fit.motion.clone();
+        let is_model = matches!(markers.body, MarkerBody::Model { .. });
         let observation = Observation {
+            has_models_mass: is_model && known.stated.is_none() && self.added_mass.is_empty(),
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
             forces,

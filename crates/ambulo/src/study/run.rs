@@ -93,9 +93,17 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let Found { analysis, prediction, measured_events, loads, processing } =
-        forces(&observed, motion, processing, settings, findings, progress)?;
-    let mass = body_mass(&observed, &analysis, findings);
+    let mut observed = observed;
+    let kept = observed.takes_weighed_mass().then(|| (motion.clone(), findings.clone()));
+    let mut found = forces(&observed, motion, processing, settings, findings, progress)?;
+    let mut mass = body_mass(&observed, &found.analysis, findings);
+    if let Some(((motion, before), kg)) = kept.zip(mass.in_place_of_the_models()) {
+        *findings = before;
+        observed.scale_to(kg, findings)?;
+        found = forces(&observed, motion, processing, settings, findings, progress)?;
+        mass = body_mass(&observed, &found.analysis, findings);
+    }
+    let Found { analysis, prediction, measured_events, loads, processing } = found;
     let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
     let directions = ForceDirections::of(&observed, &analysis.trajectory);
     directions.report(findings);

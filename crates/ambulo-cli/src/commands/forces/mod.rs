@@ -89,8 +89,8 @@ fn check_recording(recording: &Path) -> Result<()> {
     }
     if recording.is_dir() {
         bail!(
-            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo batch` computes all recordings \
-             of a folder"
+            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo session {shown}` computes the \
+             trials of a visit, `ambulo batch {shown}` all recordings of a folder"
         );
     }
     Ok(())
