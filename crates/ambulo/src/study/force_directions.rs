@@ -1,8 +1,8 @@
 //! Finds horizontal forces with a wrong sign or direction.
 //!
 //! In every step the force of the ground leads nearly from the centre of pressure p to the mass centre c, because its
-//! moment about the mass centre only changes the angular momentum of the body, which is small (Herr, Popovic 2008, J Exp
-//! Biol 211:467, unverified):
+//! moment about the mass centre only changes the angular momentum of the body, which is small (Herr, Popovic 2008, J
+//! Exp Biol 211:467, unverified):
 //!
 //! ```text
 //! e = F_v (c - p)_h / (c - p)_v          r = Σ F·e / √(Σ F² Σ e²)      over the loaded frames of whole steps

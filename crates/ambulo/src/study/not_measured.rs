@@ -6,8 +6,8 @@
 //! | on its limit in more than a tenth of the frames | the fit stops there, whatever the recording shows: a marker is misplaced, or the joint was folded the wrong way |
 //!
 //! Ranges are those of joints without load ([`crate::model::anthropometry`]), which no walk reaches for a tenth of the
-//! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record none
-//! of them.
+//! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
+//! none of them.
 
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model, Movement};

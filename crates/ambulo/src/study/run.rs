@@ -385,7 +385,8 @@ fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
         && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
     {
         let message = format!(
-            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of the \
+            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of \
+             the \
              body are not those of the recording, which hardly changes the forces of the legs",
             1e3 * of_arms,
             1e3 * of_legs

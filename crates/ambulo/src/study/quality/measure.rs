@@ -170,13 +170,15 @@ impl Measure {
                  pressure to the mass centre, over whole steps"
             }
             Measure::MarkerFit => {
-                "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms differ, of \
+                "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms \
+                 differ, of \
                  the worst of them without the arms"
             }
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
             Measure::WhoseMarkers => {
-                "number of contradictions: left and right exchanged in all labels, limbs of another person in the standing \
+                "number of contradictions: left and right exchanged in all labels, limbs of another person in the \
+                 standing \
                  trial, markers that moved since then"
             }
             Measure::NotMeasured => {

@@ -518,9 +518,9 @@ fn fit_of(tracking: &Tracking) -> &MarkerFit {
     }
 }
 
-/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with the
-/// pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight of a
-/// fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
+/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with
+/// the pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight
+/// of a fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
 pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
     let all = root_mean_square(fit_of(tracking).rms_m.iter().copied());
     match tracking {
