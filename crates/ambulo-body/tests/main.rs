@@ -23,6 +23,8 @@ mod model_landmark;
 mod model_name_index;
 mod motion_body_weight;
 mod motion_channel_angles;
+mod motion_clock;
+mod motion_held;
 mod motion_units;
 mod numerics_band_cholesky;
 mod numerics_cardinal_spline;

@@ -3,7 +3,7 @@
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
-use ambulo::analysis::{AnalysisError, ComparisonError};
+use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
@@ -36,6 +36,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
+        Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -105,6 +106,7 @@ fn option(field: Field) -> &'static str {
         Field::Cutoff => "`--cutoff HZ|off`",
         Field::Order => "`--order N`",
         Field::Gap => "`--max-gap S`",
+        Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
     }
@@ -139,6 +141,9 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
         StudyError::Sensors(error) => of_sensors(error),
+        StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
+            Some("`--subject NAME` chooses one of them")
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

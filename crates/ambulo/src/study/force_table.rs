@@ -35,6 +35,8 @@ pub(super) struct Walker<'a> {
     pub(super) window: Window,
     /// From the axes of the markers to those of the world.
     pub(super) world_from_lab: Option<&'a Mat3>,
+    /// By how much the forces were recorded late [s].
+    pub(super) delay_s: f64,
 }
 
 impl Walker<'_> {
@@ -74,6 +76,9 @@ impl Walker<'_> {
         findings: &mut Findings,
     ) -> Result<(Vec<ForceRecording>, bool), StudyError> {
         let mut forces = force_recordings(self.model, loads, table, findings).map_err(StudyError::ForceTable)?;
+        if self.delay_s.abs() > 0.0 {
+            forces.iter_mut().flat_map(|force| &mut force.times).for_each(|time| *time -= self.delay_s);
+        }
         let weight_n = self.model.mass() * self.model.gravity().norm();
         let is_relative = match self.model.up() == Vec3::y() && forces.iter().all(is_in_world) {
             true => table_axes::in_world(&mut forces, self.world_from_lab, weight_n, paths, findings),

@@ -1,6 +1,6 @@
 //! One file of a laboratory: markers, force plates, events, and statements about the person.
 
-use crate::analysis::LaboratoryRecording;
+use crate::analysis::{LaboratoryRecording, MarkerTrialError, identity};
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
@@ -72,6 +72,26 @@ impl LaboratoryFile {
         let spreads: Vec<f64> = self.recording.markers.markers.iter().filter_map(spread_m).collect();
         let still = spreads.iter().filter(|spread| **spread < STILL_M).count();
         !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
+    }
+
+    /// The markers of one person of several in the file, by the prefix of their names; the file as it is for `None`, and if
+    /// it is of one person who has this name or none.
+    ///
+    /// # Errors
+    /// A name that no person of the file has.
+    pub fn of_person(mut self, name: Option<&str>) -> Result<LaboratoryFile, MarkerTrialError> {
+        let Some(name) = name else { return Ok(self) };
+        if identity::people_in(&self.recording.markers).len() > 1 {
+            self.recording.markers = identity::person_in(self.recording.markers, name)?;
+            self.subject.name = Some(name.to_owned());
+            return Ok(self);
+        }
+        match &self.subject.name {
+            Some(own) if !own.trim().eq_ignore_ascii_case(name.trim()) => {
+                Err(MarkerTrialError::NoSuchPerson { found: name.to_owned(), people: vec![own.clone()] })
+            }
+            _ => Ok(self),
+        }
     }
 
     /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as

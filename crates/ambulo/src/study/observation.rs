@@ -19,6 +19,7 @@ use crate::analysis::{
 };
 use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
+use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
 use crate::kinematics::calibration::{self, BodyMeasurements};
 use crate::kinematics::retarget::retarget;
@@ -42,6 +43,8 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
+    /// Whether the forces are those of the force plates of the recording.
+    pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
@@ -81,6 +84,8 @@ pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
     pub(super) listed: Vec<Event>,
+    /// Checksum of the name of the person in the file; names stay out of the results.
+    pub(super) subject: Option<u64>,
 }
 
 impl Observation {
@@ -109,6 +114,11 @@ impl Observation {
 }
 
 impl Origin {
+    /// Checksum of the name of the person in the file.
+    pub(super) fn subject(&self) -> Option<u64> {
+        self.followed()?.subject
+    }
+
     pub(super) fn followed(&self) -> Option<&Followed> {
         match self {
             Origin::Markers(followed) => Some(followed),
@@ -144,7 +154,9 @@ impl Source {
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
         let Source { recording, forces, device, added_mass, stated } = self;
-        let statements = Statements { forces, device, added_mass, stated };
+        let statements =
+            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated };
+        let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
         match recording {
             Recording::Coordinates { model, motion } => {
                 statements.observe_coordinates(&model, motion, settings, findings)
@@ -174,6 +186,7 @@ impl Statements {
             person,
             forces: loads,
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Simulation { rule },
             known_mass,
             device: self.device,
@@ -191,9 +204,10 @@ impl Statements {
         let is_measured =
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
-        let model = self.loaded(self.stated.applied(model, findings)?)?;
-        let of_model = Person::of_model(&model);
-        let person = Person { estimated: self.stated.height_m.is_none(), ..of_model };
+        let model = self.stated.applied(model, findings)?;
+        // A load makes nobody stronger.
+        let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
+        let model = self.loaded(model)?;
         self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)
     }
 
@@ -247,12 +261,15 @@ impl Statements {
                     soles: &person.soles,
                     window: settings.window,
                     world_from_lab: None,
+                    delay_s: settings.force_delay_s,
                 };
                 carrying(walker.forces_of_table(&table, findings)?, findings)
             }
         };
         let known_mass = KnownMass::stated(self.stated.mass_kg);
-        let observation = Observation { person, model, forces, idle, origin, known_mass, device: self.device };
+        let device = self.device;
+        let observation =
+            Observation { person, model, forces, idle, origin, is_from_plates: false, known_mass, device };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
@@ -276,6 +293,7 @@ impl Statements {
             model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
@@ -298,9 +316,7 @@ impl Statements {
         let markers = markers.with_plates_in_newtons(&known, findings);
         let markers = self.with_known_mass(markers, &known, settings, findings)?;
         let mut body = self.follow(&markers, settings, findings, progress)?;
-        if !matches!(markers.body, MarkerBody::Model { .. }) {
-            body.subject.model = self.loaded(body.subject.model)?;
-        }
+        body.subject.model = self.loaded(body.subject.model)?;
         let (forces, mut idle) = self.forces_under(&body, settings, findings)?;
         if matches!(self.forces, MeasuredForces::InRecording) && settings.ground != GroundSettings::NoContact {
             idle = IdleForces::of_plates(&body, &markers);
@@ -312,8 +328,13 @@ impl Statements {
             person: body.subject.person.clone(),
             forces,
             idle,
+            is_from_plates: matches!(self.forces, MeasuredForces::InRecording),
             known_mass: known,
-            origin: Origin::Markers(Box::new(Followed { body, listed: markers.trial.events })),
+            origin: Origin::Markers(Box::new(Followed {
+                body,
+                listed: markers.trial.events,
+                subject: markers.trial.subject.name.as_deref().map(|name| checksum(&plain(name))),
+            })),
             device: self.device,
         };
         Ok((observation, ObservedMotion::Recorded(motion)))
@@ -337,6 +358,7 @@ impl Statements {
                     soles: &body.subject.person.soles,
                     window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
                     world_from_lab: Some(&body.laboratory.world_from_lab),
+                    delay_s: settings.force_delay_s,
                 };
                 Ok(carrying(walker.forces_of_table(table, findings)?, findings))
             }
@@ -403,7 +425,7 @@ impl Statements {
                     true => StatedSize::default(),
                     false => StatedSize { mass_kg: *mass_kg, height_m: self.stated.height_m },
                 };
-                model = self.loaded(size.applied(given, findings)?)?;
+                model = size.applied(given, findings)?;
                 BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
@@ -440,12 +462,17 @@ impl Statements {
 /// results.
 fn report_other_person(moving: &SubjectParameters, standing: &SubjectParameters, findings: &mut Findings) {
     if let (Some(moving), Some(standing)) = (&moving.name, &standing.name)
-        && !moving.trim().eq_ignore_ascii_case(standing.trim())
+        && plain(moving) != plain(standing)
     {
         let message = "the file of the standing trial names another person (SUBJECTS:NAMES) than that of the \
             recording; its body was used";
         findings.report(Code::CalibrationOtherPerson, message);
     }
+}
+
+/// A name without what its writers may vary.
+fn plain(name: &str) -> String {
+    name.trim().to_ascii_lowercase()
 }
 
 /// A mass for a body that is only there to be weighed [kg].
