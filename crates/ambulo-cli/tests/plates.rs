@@ -177,6 +177,77 @@ fn columns_of_a_force_table_are_recognised_in_any_spelling_and_assigned_by_the_c
     }
 }
 
+/// Changes the vectors of every row of the table: force, point and moment of each foot.
+fn edit_vectors(bench: &Workbench, change: impl Fn(usize, [f64; 3]) -> [f64; 3]) {
+    bench.write("table.mot", bench.text("walk_grf.mot").replace("_r_", "_1_").replace("_l_", "_2_"));
+    bench.edit_rows("table.mot", |mut rows| {
+        for cells in &mut rows {
+            for vector in 0..6 {
+                let own = &mut cells[1 + 3 * vector..4 + 3 * vector];
+                let values: Vec<f64> = own.iter().map(|cell| cell.trim().parse().unwrap()).collect();
+                for (cell, value) in own.iter_mut().zip(change(vector % 3, [values[0], values[1], values[2]])) {
+                    *cell = value.to_string();
+                }
+            }
+        }
+        rows
+    });
+}
+
+#[test]
+fn axes_and_units_of_a_force_table_are_recognised_by_what_the_body_weighs() {
+    let bench = Workbench::new("table_axes");
+    stated_moments(&bench);
+    let expected = bench.table("out/moments.sto");
+    let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+    let weight_n = 9.80665 * summary["mass"]["kg"].as_f64().unwrap();
+    let scaled = |factor: [f64; 3]| move |kind: usize, v: [f64; 3]| v.map(|x| x * factor[kind]);
+    let same = |words: &[&str]| {
+        let run = bench.run(&ON_TABLE).done();
+        run.reports(words);
+        let found = bench.table("out/moments.sto");
+        for ((name, found), (_, expected)) in found.columns().zip(expected.columns()) {
+            let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-3, "{words:?} {name}: {worst} {}", run.stderr);
+        }
+    };
+    edit_vectors(&bench, |_, [x, y, z]| [x, -z, y]);
+    same(&["carry the body along z, not along y", "x forward"]);
+    // The person walks along y.
+    edit_vectors(&bench, |_, [x, y, z]| [z, x, y]);
+    same(&["carry the body along z, not along y", "y forward"]);
+    edit_vectors(&bench, |_, [x, y, z]| [-z, -x, y]);
+    same(&["carry the body along z, not along y", "-y forward"]);
+    edit_vectors(&bench, scaled([1e-3, 1.0, 1e-3]));
+    same(&["the table is in kilonewtons"]);
+    edit_vectors(&bench, scaled([1e-3, 1.0, 1.0]));
+    same(&["the table is in kilonewtons"]);
+    edit_vectors(&bench, scaled([1.0 / weight_n, 1.0, 1.0 / weight_n]));
+    same(&["the table is in body weights"]);
+    edit_vectors(&bench, |kind, [x, y, z]| [x, -z, y].map(|v| if kind == 0 { v / weight_n } else { v }));
+    same(&["the table is in body weights", "carry the body along z"]);
+    edit_vectors(&bench, scaled([1.0, 1.0, 1e3]));
+    same(&["longer than a foot; they are in N.mm"]);
+}
+
+#[test]
+fn a_mirrored_force_of_a_table_is_named_and_bad() {
+    let bench = Workbench::new("mirrored_table");
+    for (axis, word) in [(0, "the fore-aft force (x)"), (2, "the lateral force (z)")] {
+        edit_vectors(&bench, |kind, mut v| {
+            v[axis] *= if kind == 0 { -1.0 } else { 1.0 };
+            v
+        });
+        let run = bench.run(&ON_TABLE);
+        run.reports(&[word, "is mirrored", "change the sign of the columns"]);
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        assert_eq!(summary["quality"]["state"], "bad", "{}", summary["quality"]);
+        assert!(summary["quality"]["reasons"].to_string().contains("force_directions"));
+    }
+    edit_vectors(&bench, |_, v| v);
+    assert!(!bench.run(&ON_TABLE).done().stderr.contains("mirrored"));
+}
+
 #[test]
 fn one_force_may_serve_changing_feet() {
     let bench = Workbench::new("changing_feet");

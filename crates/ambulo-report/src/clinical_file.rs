@@ -38,7 +38,8 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
     let table = move || {
-        let curves = Curves::of(&outcome.body, outcome.complete(), angles.as_ref());
+        let curves =
+            Curves::of(&outcome.body, outcome.complete(), angles.as_ref()).without(&outcome.not_measured);
         let columns = curves.columns(outcome.load_sources().as_ref());
         Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", columns)?)))
     };
@@ -76,6 +77,8 @@ pub(crate) struct Curves<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
     angles: Option<&'a ClinicalAngles>,
+    /// Coordinates whose angles, moments and powers are no results.
+    not_measured: &'a [CoordinateId],
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
     /// The mass that moments, powers and ground forces are divided by [kg].
@@ -89,7 +92,12 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, ground, mass_kg: analysis.mass.kg }
+        Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
+    }
+
+    /// The same without the quantities of coordinates that are not measured.
+    pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
+        Curves { not_measured, ..self }
     }
 
     /// The same per another mass [kg], such as that of the one body of several trials.
@@ -124,8 +132,17 @@ impl<'a> Curves<'a> {
         clinical_quantities(&ClinicalNames::of_model(self.model), |name| names.contains(name))
     }
 
-    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it.
+    /// Whether a quantity follows from a coordinate that is not measured.
+    fn is_unmeasured(&self, quantity: &ClinicalQuantity, side: Side) -> bool {
+        self.coordinate(quantity, side).is_some_and(|id| self.not_measured.contains(&id))
+    }
+
+    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it, or if it is not
+    /// measured.
     pub(crate) fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
+        if self.is_unmeasured(quantity, side) {
+            return None;
+        }
         let factor = quantity.factor(self.mass_kg, side);
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;

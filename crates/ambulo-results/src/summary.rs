@@ -81,6 +81,9 @@ pub struct Summary {
     pub comparison: Option<GroundAgreement>,
     /// Marker fit, segments, plates and events; `null` for recorded coordinates.
     pub subject: Option<SubjectSummary>,
+    /// Coordinates of pelvis and legs that nothing recorded determines, or that sit on a limit; left out if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_measured: Vec<String>,
     /// Residual reduction; `null` if the motion was not changed.
     pub consistency: Option<ConsistencySummary>,
     /// Tracking by feet on soft ground; `null` if the motion was not changed by it.
@@ -203,6 +206,10 @@ pub struct Ground {
     pub measured_share: Option<MeasuredShare>,
     /// A foot counts as unloaded below this vertical force [N].
     pub threshold_n: f64,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; left out where no
+    /// delay was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_delay_s: Option<f64>,
 }
 
 impl Ground {
@@ -319,7 +326,13 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(processing),
-        ground: Ground { source, rule, measured_share: measured_share(outcome), threshold_n: UNLOADED_N },
+        ground: Ground {
+            source,
+            rule,
+            measured_share: measured_share(outcome),
+            threshold_n: UNLOADED_N,
+            force_delay_s: outcome.force_delay_s,
+        },
         convention: None,
         activity: Some(outcome.activity),
         times_and_distances: WalkingSummary::of(&outcome.times_and_distances),
@@ -331,6 +344,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         prediction: prediction.map(|prediction| prediction.checks.clone()),
         comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
         subject: outcome.tracking.as_ref().map(subject),
+        not_measured: outcome.not_measured.iter().map(|id| model.coordinates()[id.index()].name.clone()).collect(),
         consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
         tracking: prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of),
         walk: None,

@@ -116,9 +116,11 @@ fn outline(summary: &Summary) -> Result<()> {
 
 /// How far the motion was changed until feet on the ground supplied its external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
-    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, .. } = tracking;
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
+    let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
+    let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg and {root_rms_mm:.1} mm rms, residual at most {:.3} \
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most {:.3} \
          % of body weight, {steps} steps",
         100.0 * residual_peak
     ))

@@ -12,7 +12,7 @@ use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
 use crate::ground::stances::{Stance, StanceSource};
-use crate::model::{BySide, Model, Side};
+use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
 
@@ -32,6 +32,9 @@ pub struct Outcome {
     pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.
     pub force_origin: ForceOrigin,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; `None` where no
+    /// delay was found.
+    pub force_delay_s: Option<f64>,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or
     /// are none.
     pub prediction: Option<PredictedGround>,
@@ -43,6 +46,9 @@ pub struct Outcome {
     pub residual_reduction: Option<ReducedMotion>,
     /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
     pub device: Option<Vec<Vec<f64>>>,
+    /// Coordinates of pelvis and legs that nothing recorded determines: held at one value, or on a limit in more than a
+    /// tenth of the frames. Their angles and powers are no results.
+    pub not_measured: Vec<CoordinateId>,
     /// Whether the recording, the body and the forces fit together: about the data.
     pub quality: Quality,
     /// Whether a person could do this: about the movement.
@@ -53,6 +59,8 @@ pub struct Outcome {
     pub(super) completed: Option<Analysis>,
     /// Filters and time range that were used.
     pub processing: Processing,
+    /// Checksum of the name of the person in the file of the recording, if it has one.
+    pub subject: Option<u64>,
 }
 
 /// Filters and time range that were used.
@@ -81,6 +89,8 @@ pub struct TrackedGround {
     pub residual: (f64, f64),
     /// Root mean square of the changes of rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
+    /// Largest change of each rotation [rad], by the name of its coordinate.
+    pub turned: Vec<(String, f64)>,
     /// Steps of the solver.
     pub steps: usize,
     /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured
