@@ -38,8 +38,7 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
     let table = move || {
-        let curves =
-            Curves::of(&outcome.body, outcome.complete(), angles.as_ref()).without(&outcome.not_measured);
+        let curves = Curves::of(&outcome.body, outcome.complete(), angles.as_ref()).without(&outcome.not_measured);
         let columns = curves.columns(outcome.load_sources().as_ref());
         Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", columns)?)))
     };

@@ -9,9 +9,7 @@
 
 use crate::shared_data::data;
 use ambulo::findings::{Code, Findings};
-use ambulo::ground::predict::{
-    FittedParameters, PersonalErrors, PredictSettings, StanceErrors, checksum, trusted,
-};
+use ambulo::ground::predict::{FittedParameters, PersonalErrors, PredictSettings, StanceErrors, checksum, trusted};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::study::{
