@@ -70,8 +70,8 @@ pub(super) fn measured(
     let predicted =
         || predicted_in_frames(model, motion, &trajectory, processing, &input, &mut Findings::default()).ok();
     let prediction = (!missing.is_empty()).then(predicted).flatten();
-    let kind = activity(model, &trajectory, &person.soles, person.leg_length_m, &footfalls).kind;
-    let is_known = prediction.is_some() && kind.has_validated_prediction();
+    let kind = || activity(model, &trajectory, &person.soles, person.leg_length_m, &footfalls).kind;
+    let is_known = prediction.is_some() && kind().has_validated_prediction();
     let source = if is_known { StanceSource::Predicted } else { StanceSource::Unknown };
     let others = missing
         .iter()
