@@ -550,7 +550,8 @@ fn forces(
         ObservedMotion::Recorded(motion) => {
             let Measured { analysis, loads, processing } =
                 measured(observation, &motion, processing, settings, findings, progress)?;
-            let (analysis, measured_events) = with_markers(analysis, observation);
+            let (mut analysis, measured_events) = with_markers(analysis, observation);
+            analysis.cycles = loads.single(analysis.cycles);
             Ok(Found { analysis, prediction: None, measured_events, loads: Some(loads), processing })
         }
     }
