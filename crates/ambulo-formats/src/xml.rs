@@ -2,6 +2,7 @@
 
 use crate::content;
 use crate::error::{Error, quoted};
+use crate::plain_text::decode;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Largest number of nodes that is read; a full-body model has some 10,000. The limit bounds memory on

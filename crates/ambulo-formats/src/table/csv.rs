@@ -92,7 +92,8 @@ fn starts_with_numbers(lines: &Lines<'_>) -> Result<bool, Error> {
 /// Removes columns without a name: of cells that are empty, because rows end with a separator, and a first one that
 /// counts the rows, as pandas writes it. Returns the number of these empty cells.
 fn without_unnamed(table: &mut Table, line: usize) -> Result<usize, Error> {
-    let counts = |values: &[f64]| values.iter().enumerate().all(|(row, value)| *value - values[0] == row as f64);
+    let counts =
+        |values: &[f64]| values.iter().enumerate().all(|(row, value)| (value - values[0] - row as f64).abs() < 1e-9);
     let mut empty = 0;
     for k in (0..table.names.len()).rev().filter(|k| table.names[*k].is_empty()).collect::<Vec<_>>() {
         let values = &table.data[k];

@@ -6,12 +6,6 @@ use std::collections::BTreeMap;
 
 type Position = [f64; 3];
 
-/// The last plate is left out by its user.
-pub(super) fn plate_off(trial: &mut Trial) -> Option<()> {
-    trial.plate_off = Some(trial.moving.platforms().ok()?.len());
-    Some(())
-}
-
 /// The last plate shows what it showed in the first sample.
 pub(super) fn plate_silent(trial: &mut Trial) -> Option<()> {
     let plate = trial.moving.platforms().ok()?.pop()?;
