@@ -124,8 +124,13 @@ pub fn laboratory_of_landmarks(
     let up = upward(markers, landmarks, plates, findings);
     let scale = scale(markers, up, findings);
     let travel = travel(markers, landmarks, plates, up, scale, findings);
-    let (forward, heading) =
-        forward(travel.map(|travel| travel.direction), facing(markers, landmarks, up), up, findings);
+    let directions = facing_directions(markers, landmarks, up);
+    let facing = mean_direction(directions.iter().copied());
+    let why = match directions.is_empty() {
+        true => "no heel, toe or pelvis marker is known",
+        false => "pelvis and feet face different ways: left and right, or heel and toe, may be exchanged",
+    };
+    let (forward, heading) = forward(travel.map(|travel| travel.direction), facing, (up, why), findings);
     let right = forward.cross(&up);
     let way = match heading {
         Heading::Walking => "walking",
@@ -241,7 +246,13 @@ fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
 
 // ---- forward ----
 
-fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut Findings) -> (Vec3, Heading) {
+/// `why` the facing direction is unknown, if it is.
+fn forward(
+    travel: Option<Vec3>,
+    facing: Option<Vec3>,
+    (up, why): (Vec3, &str),
+    findings: &mut Findings,
+) -> (Vec3, Heading) {
     match (travel, facing) {
         (Some(travel), None) => (snapped(travel, up), Heading::Walking),
         (Some(travel), Some(facing)) => {
@@ -265,8 +276,7 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
         (None, None) => {
             let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
             let message = format!(
-                "the forward direction cannot be determined (the body stays in place, and no heel, toe or pelvis \
-                 marker is known); {} was assumed",
+                "the forward direction cannot be determined (the body stays in place, and {why}); {} was assumed",
                 direction_name(forward, up)
             );
             findings.report(Code::LaboratoryForwardUnclear, message);
@@ -346,8 +356,8 @@ fn loaded_span(plates: &[PlateRecording]) -> Option<[f64; 2]> {
     (to > from).then_some([from, to])
 }
 
-/// Mean facing direction of pelvis and feet.
-fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<Vec3> {
+/// Facing directions of pelvis and feet, in all frames.
+fn facing_directions(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<Vec3> {
     let level = |v: Vec3| level(v, up).try_normalize(f64::MIN_POSITIVE);
     let at = |marker: Option<usize>, i: usize| {
         marker.filter(|&m| markers.markers[m].is_seen(i)).map(|m| markers.markers[m].positions[i])
@@ -361,7 +371,7 @@ fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<
         (0..markers.frames()).filter_map(move |i| level(at(foot.toe, i)? - at(foot.heel, i)?)).collect::<Vec<_>>()
     };
     let feet = Side::BOTH.into_iter().flat_map(foot);
-    mean_direction(pelvis.chain(feet))
+    pelvis.chain(feet).collect()
 }
 
 // ---- directions ----
