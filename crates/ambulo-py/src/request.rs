@@ -128,6 +128,7 @@ impl Given {
             "filter" => settings.filter = given.one_of(&Filter::ALL)?,
             "cutoff" => settings.cutoff = Some(given.parsed()?),
             "force_cutoff" => settings.force_cutoff = Some(given.parsed()?),
+            "force_delay" => settings.force_delay_s = given.number()?,
             "order" => settings.order = given.parsed()?,
             "consistent" => {
                 settings.residual_reduction = match given.value.cast::<PyBool>() {

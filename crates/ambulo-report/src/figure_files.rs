@@ -98,7 +98,7 @@ pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<Outp
     let (angles, _) = angles_of(outcome, chosen);
     let drawn = Drawn {
         model: &outcome.body,
-        analysis: &outcome.analysis,
+        analysis: outcome.complete(),
         reasons: &outcome.verdict.reasons,
         angles: angles.as_ref(),
         not_measured: &outcome.not_measured,

@@ -124,13 +124,12 @@ pub fn laboratory_of_landmarks(
     let up = upward(markers, landmarks, plates, findings);
     let scale = scale(markers, up, findings);
     let travel = travel(markers, landmarks, plates, up, scale, findings);
-    let directions = facing_directions(markers, landmarks, up);
-    let facing = mean_direction(directions.iter().copied());
-    let why = match directions.is_empty() {
-        true => "no heel, toe or pelvis marker is known",
-        false => "pelvis and feet face different ways: left and right, or heel and toe, may be exchanged",
-    };
-    let (forward, heading) = forward(travel.map(|travel| travel.direction), facing, (up, why), findings);
+    let (forward, heading) = forward(
+        travel.map(|travel| travel.direction),
+        facing(markers, landmarks, up),
+        (up, no_facing(landmarks)),
+        findings,
+    );
     let right = forward.cross(&up);
     let way = match heading {
         Heading::Walking => "walking",
@@ -246,11 +245,23 @@ fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
 
 // ---- forward ----
 
-/// `why` the facing direction is unknown, if it is.
+/// Why the body has no facing direction, if it has none.
+fn no_facing(landmarks: &Landmarks) -> &'static str {
+    let has_foot =
+        Side::BOTH.iter().any(|side| landmarks.foot(*side).heel.is_some() && landmarks.foot(*side).toe.is_some());
+    let has_pelvis = landmarks.asis_r.is_some() && landmarks.asis_l.is_some();
+    if has_foot || has_pelvis {
+        "its heel, toe and pelvis markers point in different directions, or are not seen"
+    } else {
+        "no heel and toe or pelvis markers are known"
+    }
+}
+
+/// `up`: with the reason why no facing direction is known.
 fn forward(
     travel: Option<Vec3>,
     facing: Option<Vec3>,
-    (up, why): (Vec3, &str),
+    (up, no_facing): (Vec3, &str),
     findings: &mut Findings,
 ) -> (Vec3, Heading) {
     match (travel, facing) {
@@ -276,7 +287,7 @@ fn forward(
         (None, None) => {
             let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
             let message = format!(
-                "the forward direction cannot be determined (the body stays in place, and {why}); {} was assumed",
+                "the forward direction cannot be determined (the body stays in place, and {no_facing}); {} was assumed",
                 direction_name(forward, up)
             );
             findings.report(Code::LaboratoryForwardUnclear, message);
@@ -356,8 +367,8 @@ fn loaded_span(plates: &[PlateRecording]) -> Option<[f64; 2]> {
     (to > from).then_some([from, to])
 }
 
-/// Facing directions of pelvis and feet, in all frames.
-fn facing_directions(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Vec<Vec3> {
+/// Mean facing direction of pelvis and feet.
+fn facing(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3) -> Option<Vec3> {
     let level = |v: Vec3| level(v, up).try_normalize(f64::MIN_POSITIVE);
     let at = |marker: Option<usize>, i: usize| {
         marker.filter(|&m| markers.markers[m].is_seen(i)).map(|m| markers.markers[m].positions[i])
@@ -371,7 +382,7 @@ fn facing_directions(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3)
         (0..markers.frames()).filter_map(move |i| level(at(foot.toe, i)? - at(foot.heel, i)?)).collect::<Vec<_>>()
     };
     let feet = Side::BOTH.into_iter().flat_map(foot);
-    pelvis.chain(feet).collect()
+    mean_direction(pelvis.chain(feet))
 }
 
 // ---- directions ----

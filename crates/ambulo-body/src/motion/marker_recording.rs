@@ -1,5 +1,6 @@
 //! Marker trajectories in metres; gaps are not-a-number.
 
+use super::clock::clock_of_table;
 use super::guessed_unit::metres_per_unit;
 use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
@@ -55,7 +56,8 @@ pub enum MarkerError {
     },
     /// Two points for most names, at different places.
     #[error(
-        "{count} names have two points each, {apart_m:.1} m apart (first {listed}): the markers are those of two people; \
+        "{count} names have two points each, {apart_m:.1} m apart (first {listed}): the markers are those of two \
+         people; \
          expected one person. hint: export one person, or give the markers of each a prefix with the name, such as \
          `Anna:LASI`"
     )]
@@ -172,7 +174,7 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
     let recording = MarkerRecording {
         name: trc.name.clone(),
         rate_hz: trc.rate_hz,
-        times: trc.times().to_vec(),
+        times: clock_of_table("", trc.times(), Some(trc.frames()), Some(trc.rate_hz), findings),
         markers: paths.collect(),
     };
     checked(recording, findings)

@@ -5,6 +5,7 @@
 //! trial, or take it unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the
 //! plates.
 
+use super::fitted_feet::with_fitted_feet;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
@@ -13,7 +14,7 @@ use super::progress::{Progress, Stage};
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
-use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates};
+use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::kinematics::marker_fit::{
@@ -115,9 +116,6 @@ pub(crate) fn fit_body_to_markers(
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let is_other = standing
-        .as_ref()
-        .is_some_and(|standing| identity::report_other_limbs(moving, standing, set, &mut contradictions, findings));
     let (mut fit, followed, keypoints) = match keypoints {
         Some(keypoints) => {
             let FollowedKeypoints { fit, smooth, report } =
@@ -129,8 +127,9 @@ pub(crate) fn fit_body_to_markers(
             (fit, followed, None)
         }
     };
-    if standing.is_some() && !is_other && keypoints.is_none() {
-        identity::report_moved(&subject, &followed, &settings, &mut contradictions, findings);
+    if let (Some(standing), None) = (&standing, &keypoints) {
+        let moved = identity::moved(&subject, &followed, &settings);
+        identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
@@ -162,9 +161,12 @@ impl OnFloor<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<BodyInMotion, MarkerTrialError> {
         let OnFloor { axes, plates, points, set, plate_feet } = self;
+        let shown = with_fitted_feet(points, set, &subject, &fit.motion);
+        let points = shown.as_ref().unwrap_or(points);
         let landmarks = Landmarks::named(points, set);
         let feet = foot_motion_of_landmarks(points, &landmarks, findings);
         let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
+        let plates = plates_under_moving_feet(&moving, plates, findings);
         let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
         Ok(BodyInMotion {

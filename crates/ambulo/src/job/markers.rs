@@ -5,9 +5,9 @@ use super::files::{ending, read as read_file};
 use super::laboratory::read_laboratory_file;
 use super::model_file::read_model;
 use super::values::PlateFoot;
-use super::{Job, Reading, ground_table, size};
+use super::{Job, Reading, ground_table};
 use crate::model::marker_set::MarkerSet;
-use crate::study::{MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial};
+use crate::study::{MarkerBody, MarkerSource, PlateAssignment, Source, StandingTrial, standing_trial};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,10 +18,10 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
     let standing = job.standing.as_deref().map(|path| shared_standing_trial(path, job, reading)).transpose()?;
     (reading.progress)("read_markers");
     let body = body(job, reading)?;
-    let plates = job.plates.iter().map(|PlateFoot { plate, side }| PlateAssignment {
-        plate: plate - 1,
-        used: side.map_or(PlateUse::Off, PlateUse::Foot),
-    });
+    let statements = |PlateFoot { plate, uses }: &PlateFoot| -> Vec<PlateAssignment> {
+        uses.iter().map(|used| PlateAssignment { plate: plate - 1, used: *used }).collect()
+    };
+    let plates = job.plates.iter().flat_map(statements);
     let markers = MarkerSource { trial, standing, body, plates: plates.collect() };
     let forces = ground_table::read(job, reading)?;
     let source = Source::markers(markers);
@@ -61,7 +61,6 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         }
         return Ok(());
     }
-    size::check(job.size)?;
     if job.size.height_m.is_some() && job.standing.is_some() {
         let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
         return Err(JobError::new(&[Field::Height], what));

@@ -29,7 +29,8 @@ impl Debug for Recorded<'_> {
             Adjustable::MotionAndBody => format_args!("Body"),
         });
         let added: Vec<Added<'_>> = job.added_mass.iter().map(Added).collect();
-        f.debug_struct("ForcesArgs")
+        let mut record = f.debug_struct("ForcesArgs");
+        record
             .field("input", &job.recording)
             .field("setup", &job.setups)
             .field("model", &job.model.as_ref().map(ModelChoice::path))
@@ -62,8 +63,11 @@ impl Debug for Recorded<'_> {
             .field("keep", &outputs.keep)
             .field("replace", &format_args!("ReplaceArgs {{ force: false }}"))
             .field("check", &format_args!("CheckArgs {{ check: false }}"))
-            .field("print", &format_args!("PrintArgs {{ json: false, quiet: false, verbose: false }}"))
-            .finish()
+            .field("print", &format_args!("PrintArgs {{ json: false, quiet: false, verbose: false }}"));
+        if settings.force_delay_s.abs() > 0.0 {
+            record.field("force_delay", &settings.force_delay_s);
+        }
+        record.finish()
     }
 }
 

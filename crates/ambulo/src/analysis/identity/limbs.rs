@@ -7,9 +7,9 @@
 //! | shank | lateral epicondyle and lateral malleolus |
 //! | foot | heel and front of the foot |
 //!
-//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them; another
-//! person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their lengths,
-//! root mean square: one marker that slides by 20 mm cannot do that.
+//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them;
+//! another person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their
+//! lengths, root mean square: one marker that slides by 20 mm cannot do that.
 
 use super::Contradictions;
 use super::landmark_paths::{FRONTS, LandmarkPaths};
@@ -88,7 +88,8 @@ pub(in crate::analysis) fn report_other_limbs(
     let relative = |&(_, own, still): &(&String, f64, f64)| (own / still - 1.0).abs();
     let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return };
     let message = format!(
-        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; at \
+        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; \
+         at \
          most {:.1} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
          this person, or none",
         100.0 * share,

@@ -12,9 +12,11 @@
 mod measure;
 pub(crate) mod stance_heights;
 
+use super::force_directions::{ForceDirections, is_used};
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
+use super::timing::{ForceDelay, Tempo};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
@@ -134,6 +136,8 @@ pub(super) struct QualityEvidence<'a> {
     /// Whether no frame remains without the ends of the motion, which are not measured.
     pub(super) is_too_short: bool,
     pub(super) force_origin: ForceOrigin,
+    /// Whether forces were measured, but at no time those of all loaded feet.
+    pub(super) is_never_complete: bool,
     pub(super) tracking: Option<&'a Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     pub(super) place_is_derived: bool,
@@ -141,7 +145,12 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
+    pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
+    /// How late the measured forces are.
+    pub(super) delay: Option<ForceDelay>,
+    /// The clock of the motion, if it is wrong.
+    pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
 }
 
@@ -152,12 +161,14 @@ impl QualityEvidence<'_> {
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
+        let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
                 .into_iter()
                 .chain(of_plates)
+                .chain(of_recording)
                 .chain(of_keypoints)
                 .chain(of_body)
                 .chain(of_person)
@@ -219,6 +230,16 @@ impl QualityEvidence<'_> {
         })
     }
 
+    /// Where no residual can be computed, nothing shows that the forces belong to the motion.
+    fn unchecked_forces(&self) -> Option<QualityReason> {
+        let value = if self.is_never_complete { 1.0 } else { 0.0 };
+        Measure::UncheckedForces.reason(value, |_| {
+            "forces were measured, but at no time those of all loaded feet: the residual cannot be computed, and \
+             nothing shows that forces and motion belong together"
+                .to_owned()
+        })
+    }
+
     fn unassigned_forces(&self) -> Option<QualityReason> {
         let (share, [from, to]) = self.idle.unassigned()?;
         Measure::UnassignedForces.reason(share, |limit| {
@@ -236,6 +257,13 @@ impl QualityEvidence<'_> {
         Measure::SilentPlates.reason(share, |_| {
             format!("no load was measured in {} of the stances on force plates, first {first}", percent(share))
         })
+    }
+
+    /// A wrong sign or direction is in the moments, unless the forces are predicted.
+    fn force_directions(&self) -> Option<QualityReason> {
+        let (sentence, agreement) = self.directions.worst()?;
+        let reason = Measure::ForceDirections.reason(agreement, |_| sentence.to_owned());
+        reason.filter(|_| is_used(&self.force_origin))
     }
 
     fn fit(&self) -> Option<&MarkerFit> {
@@ -453,6 +481,16 @@ impl QualityEvidence<'_> {
         })
     }
 
+    fn force_delay(&self) -> Option<QualityReason> {
+        let delay = self.delay?;
+        Measure::ForceDelay.reason(delay.delay_s.abs(), |_| delay.message())
+    }
+
+    fn tempo(&self) -> Option<QualityReason> {
+        let tempo = self.tempo?;
+        Measure::Tempo.reason(tempo.wrong_by(), |_| tempo.message())
+    }
+
     fn cutoff(&self) -> Option<QualityReason> {
         let (Smoother::Butterworth(filter), rate_hz) = self.smoothed else { return None };
         let cutoff_hz = filter.cutoff_hz;
@@ -480,16 +518,16 @@ fn fit_of(tracking: &Tracking) -> &MarkerFit {
     }
 }
 
-/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with the
-/// pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight of a
-/// fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
+/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with
+/// the pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight
+/// of a fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
 pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
     let all = root_mean_square(fit_of(tracking).rms_m.iter().copied());
     match tracking {
         Tracking::Markers(tracked) if Measure::MarkerFit.reason(all, |_| String::new()).is_some() => {
             let [of_legs, of_trunk, _] = rms_of_parts_m(tracked);
             let parts = [of_legs, of_trunk].into_iter().filter(|rms| rms.is_finite());
-            parts.reduce(f64::max).unwrap_or(all)
+            parts.reduce(f64::max).map_or(all, |worst| worst.min(all))
         }
         _ => all,
     }
