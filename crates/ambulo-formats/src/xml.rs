@@ -91,15 +91,6 @@ pub(crate) fn document_text(bytes: &[u8]) -> String {
     }
 }
 
-/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.
-pub(crate) fn decode(bytes: &[u8]) -> String {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
-    }
-}
-
 /// First child element with this tag.
 pub(crate) fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
     node.children().find(|c| c.has_tag_name(tag))

@@ -6,8 +6,8 @@ use super::lines::{Line, Lines, counted, duplicate, expected_number, is_time, nu
 use super::units::Units;
 use crate::content;
 use crate::error::{Error, Remark, quoted};
+use crate::plain_text::decode;
 use crate::plain_text::{PlainText, has_decimal_commas};
-use crate::xml::decode;
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
 use std::io::{self, Write};

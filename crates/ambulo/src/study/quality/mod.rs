@@ -147,7 +147,7 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) idle: &'a IdleForces,
     pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
-    /// How late the measured forces are.
+    /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
     pub(super) delay: Option<ForceDelay>,
     /// The clock of the motion, if it is wrong.
     pub(super) tempo: Option<Tempo>,
