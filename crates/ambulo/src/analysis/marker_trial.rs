@@ -116,9 +116,6 @@ pub(crate) fn fit_body_to_markers(
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let is_other = standing
-        .as_ref()
-        .is_some_and(|standing| identity::report_other_limbs(moving, standing, set, &mut contradictions, findings));
     let (mut fit, followed, keypoints) = match keypoints {
         Some(keypoints) => {
             let FollowedKeypoints { fit, smooth, report } =
@@ -130,8 +127,9 @@ pub(crate) fn fit_body_to_markers(
             (fit, followed, None)
         }
     };
-    if standing.is_some() && !is_other && keypoints.is_none() {
-        identity::report_moved(&subject, &followed, &settings, &mut contradictions, findings);
+    if let (Some(standing), None) = (&standing, &keypoints) {
+        let moved = identity::moved(&subject, &followed, &settings);
+        identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);

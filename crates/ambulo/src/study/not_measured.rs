@@ -38,13 +38,13 @@ pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findin
     if let Some(first) = found.first() {
         let name = |one: &NotMeasured| format!("`{}` {}", model.coordinates()[one.coordinate.index()].name, one.why);
         let listed: Vec<String> = found.iter().map(name).collect();
-        let of_joints = if found.len() > 1 { "these joints are" } else { "this joint is" };
+        let of_joints = if found.len() > 1 { "these joints" } else { "this joint" };
         let cause = match first.is_held {
             true => "markers of the segment are missing in the standing trial or in the motion",
             false => "markers may be misplaced or exchanged",
         };
         let message = format!(
-            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} no result. hint: \
+            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} are no results. hint: \
              {cause}",
             listed.join(", ")
         );

@@ -32,6 +32,7 @@ use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, SubjectParameters, Window, smooth};
 use crate::numerics::median;
 use crate::spatial::STANDARD_GRAVITY;
+use crate::spatial::Vec3;
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
 

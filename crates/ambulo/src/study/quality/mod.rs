@@ -527,7 +527,7 @@ pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
         Tracking::Markers(tracked) if Measure::MarkerFit.reason(all, |_| String::new()).is_some() => {
             let [of_legs, of_trunk, _] = rms_of_parts_m(tracked);
             let parts = [of_legs, of_trunk].into_iter().filter(|rms| rms.is_finite());
-            parts.reduce(f64::max).unwrap_or(all)
+            parts.reduce(f64::max).map_or(all, |worst| worst.min(all))
         }
         _ => all,
     }
