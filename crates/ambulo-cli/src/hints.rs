@@ -3,7 +3,7 @@
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
-use ambulo::analysis::{AnalysisError, ComparisonError};
+use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
@@ -25,6 +25,9 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::PlatesTwoFeet | Code::PlatesUnassigned => {
             "`--plate 1=r` assigns the right foot to plate 1; give a standing trial with `--static`"
         }
+        Code::PlatesMirrored | Code::PlatesCornersUnclear => {
+            "`--plate 1=flip-x`, `1=flip-y`, `1=turn-90`, `1=turn-180` or `1=turn-270` correct plate 1"
+        }
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
         Code::LoadsUnderOtherFoot => {
@@ -33,6 +36,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
+        Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -90,7 +94,7 @@ fn option(field: Field) -> Option<&'static str> {
         Field::Earth => "`--earth X,Y,Z`",
         Field::ForceTable => "`--grf FILE`",
         Field::Loads => "`--loads FILE`",
-        Field::Plates => "`--plate N=r|l|off`",
+        Field::Plates => "`--plate N=r|l|off|flip-x|flip-y|turn-90|turn-180|turn-270`",
         Field::AddedMass => "`--add-mass BODY:KG[:X,Y,Z]`",
         Field::Feet => "`--right BODY:PREFIX`, `--left BODY:PREFIX`",
         Field::From => "`--from T`",
@@ -102,6 +106,7 @@ fn option(field: Field) -> Option<&'static str> {
         Field::Cutoff => "`--cutoff HZ|off`",
         Field::Order => "`--order N`",
         Field::Gap => "`--max-gap S`",
+        Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
     };
@@ -137,6 +142,9 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
         StudyError::Sensors(error) => of_sensors(error),
+        StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
+            Some("`--subject NAME` chooses one of them")
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

@@ -97,7 +97,9 @@ pub mod internals {
 
     pub use crate::args::Existing;
     pub use crate::bug_report::install as install_bug_report;
+    pub use crate::commands::stream::clock::{Clock, ClockDoubt};
     pub use crate::commands::stream::formats::{AngleUnit, Message, from_json, from_record, record_bytes, to_record};
+    pub use crate::commands::stream::line_text::{is_http, is_wide, text, without_nan};
     pub use crate::commands::stream::numbering::{Numbering, Place};
     pub use crate::commands::stream::page_server::{PageServer, QUEUE, is_address};
     pub use crate::record::{Record, hash};

@@ -68,7 +68,7 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
 /// A figure that could not be drawn.
 pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let (angles, _) = angles_of(outcome, chosen);
-    let mut files = figure_files(&outcome.body, &outcome.analysis, &outcome.verdict.reasons, angles.as_ref())?;
+    let mut files = figure_files(&outcome.body, outcome.complete(), &outcome.verdict.reasons, angles.as_ref())?;
     if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
         let predicted = PredictedMotion { analysis: &outcome.analysis, prediction, measured: measured.as_ref() };
         let svg = prediction_figure(&outcome.body, predicted, &caption(&outcome.body, &outcome.analysis))?;

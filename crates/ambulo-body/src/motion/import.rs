@@ -1,5 +1,7 @@
 //! Reads the coordinates of a model from a table.
 
+use super::clock::clock_of_table;
+use super::held::release_held_coordinates;
 use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
@@ -8,11 +10,11 @@ use crate::numerics::median;
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
-const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
+pub(super) const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
 /// If all angles under a header that states degrees are smaller than this [deg], they were written in radians.
-const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
+pub(super) const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
 /// Smallest number of moving rotations for this test.
-const ENOUGH_ROTATIONS: usize = 4;
+pub(super) const ENOUGH_ROTATIONS: usize = 4;
 
 /// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
 /// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.
@@ -28,8 +30,7 @@ pub fn coordinates_from_table(
     origin: &str,
     findings: &mut Findings,
 ) -> Result<Motion, MotionError> {
-    let kept = rows_with_rising_time(table, findings)?;
-    let times = table.times().unwrap_or_default();
+    let (kept, times) = rows_with_clock(table, findings)?;
     let in_degrees = table.in_degrees.or_else(|| unit_of_names(table)).unwrap_or_else(|| {
         let unit = unstated_unit(model, table);
         let reason = match unit {
@@ -40,11 +41,7 @@ pub fn coordinates_from_table(
         findings.report(Code::MotionUnitUnstated, message);
         unit
     });
-    let mut motion = Motion {
-        origin: origin.to_owned(),
-        times: kept.iter().map(|&row| times[row]).collect(),
-        columns: vec![None; model.coordinates().len()],
-    };
+    let mut motion = Motion { origin: origin.to_owned(), times, columns: vec![None; model.coordinates().len()] };
     let mut unknown = Vec::new();
     for (name, values) in table.columns().skip(1) {
         let (name, _) = without_unit(name);
@@ -63,6 +60,7 @@ pub fn coordinates_from_table(
         return Err(no_coordinate(model, table));
     }
     report_unknown(model, &unknown, &motion, findings);
+    release_held_coordinates(model, &mut motion, findings);
     if is_usual_unit(model, &motion, in_degrees, findings) {
         jumps::without_whole_turns(model, &mut motion, findings);
         jumps::report_jumps(model, &motion, findings);
@@ -119,10 +117,26 @@ fn no_coordinate(model: &Model, table: &Table) -> MotionError {
     }
 }
 
+/// The times of a table [s], as written.
+pub(super) fn times(table: &Table) -> Result<&[f64], MotionError> {
+    let first = || table.names().first().cloned().unwrap_or_default();
+    table.times().ok_or_else(|| MotionError::NoTime { found: first() })
+}
+
+/// Rows to keep of a recording, with the times that its clock means [s].
+pub(super) fn rows_with_clock(table: &Table, findings: &mut Findings) -> Result<(Vec<usize>, Vec<f64>), MotionError> {
+    let clock = clock_of_table("", times(table)?, None, None, findings);
+    let kept = rows_with_rising_time(table, &clock, findings)?;
+    let times = kept.iter().map(|&row| clock[row]).collect();
+    Ok((kept, times))
+}
+
 /// Rows to keep: exact repetitions of the previous row are dropped and counted.
-pub(super) fn rows_with_rising_time(table: &Table, findings: &mut Findings) -> Result<Vec<usize>, MotionError> {
-    let first_name = table.names().first().cloned().unwrap_or_default();
-    let Some(times) = table.times() else { return Err(MotionError::NoTime { found: first_name }) };
+pub(super) fn rows_with_rising_time(
+    table: &Table,
+    times: &[f64],
+    findings: &mut Findings,
+) -> Result<Vec<usize>, MotionError> {
     let place = |row: usize| match table.line_of_row(row) {
         Some(line) => format!("line {line}"),
         None => format!("row {}", row + 1),

@@ -204,8 +204,9 @@ fn print_findings(findings: &[Finding]) {
 fn print_warnings(findings: &[Finding]) {
     /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.
     const MOST: usize = 4;
-    let (warnings, notes): (Vec<&Finding>, Vec<&Finding>) =
+    let (mut warnings, notes): (Vec<&Finding>, Vec<&Finding>) =
         findings.iter().partition(|finding| finding.severity() == Severity::Warning);
+    warnings.sort_by_key(|finding| !finding.code.comes_first());
     for finding in warnings.iter().take(MOST) {
         let (what, hint) = finding.message.split_once("hint: ").unwrap_or((&finding.message, ""));
         let hint = Some(hint).filter(|hint| !hint.is_empty()).or(hints::of_finding(finding.code));

@@ -151,22 +151,25 @@ pub fn analyse(
     settings: AnalysisSettings,
     findings: &mut Findings,
 ) -> Result<Analysis, AnalysisError> {
-    analyse_with_progress(model, motion, plates, settings, findings, &mut Progress::default())
+    let trajectory = trajectory_of_measured(model, motion, plates, settings, findings)?;
+    let source = ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented };
+    analyse_trajectory(model, trajectory, plates, source, findings)
 }
 
-pub(crate) fn analyse_with_progress(
+/// The motion, smoothed and completed, during the time that the force recordings cover; with a finding if that is not
+/// the whole window.
+///
+/// # Errors
+/// A motion that cannot be smoothed: see [`AnalysisError`].
+pub(crate) fn trajectory_of_measured(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
     settings: AnalysisSettings,
     findings: &mut Findings,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, AnalysisError> {
+) -> Result<Trajectory, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
-    let trajectory = trajectory_within(model, motion, plates, settings, window, findings)?;
-    progress.end(Stage::Smoothing)?;
-    let source = ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented };
-    analyse_measured(model, trajectory, plates, source, findings, progress)
+    trajectory_within(model, motion, plates, settings, window, findings)
 }
 
 /// The whole motion, smoothed and completed.
@@ -357,10 +360,10 @@ fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings:
     covered
 }
 
-type TimedForce = (Vec<f64>, Vec<f64>);
+pub(crate) type TimedForce = (Vec<f64>, Vec<f64>);
 
 /// Times and total vertical force [N] of each measured foot, as recorded.
-fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
+pub(crate) fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
     let mut list = Vec::new();
     for side in Side::BOTH {
         let of_side = |p: &&ForceRecording| model.anatomy().body_side(p.body) == Some(side);

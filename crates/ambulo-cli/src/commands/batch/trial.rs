@@ -147,7 +147,7 @@ impl Work {
         Ok(Computed {
             summary: serde_json::to_value(&summary)?,
             frames,
-            cycles: if keep.includes(CYCLES) { cycle_rows(body, &run.outcome.analysis) } else { Vec::new() },
+            cycles: if keep.includes(CYCLES) { cycle_rows(body, run.outcome.complete()) } else { Vec::new() },
             events: if keep.includes(EVENTS) { events.clone() } else { Vec::new() },
         })
     }
@@ -179,10 +179,11 @@ fn add_columns(
         return;
     }
     for (name, values) in table.columns() {
-        if name == "time" && !frames.is_empty() {
+        let is_shared = name == "time" || name.starts_with("ground_source_");
+        let own = if is_shared { name.to_owned() } else { format!("{prefix}{name}") };
+        if is_shared && frames.iter().any(|known| known.name == own) {
             continue;
         }
-        let own = if name == "time" { name.to_owned() } else { format!("{prefix}{name}") };
         frames.push(FrameColumn { name: own, unit: unit(name), values: values.to_vec() });
     }
 }
