@@ -21,6 +21,7 @@ mod kinematics_legs;
 mod kinematics_rows;
 mod model_landmark;
 mod model_name_index;
+mod motion_body_weight;
 mod motion_channel_angles;
 mod motion_clock;
 mod motion_held;

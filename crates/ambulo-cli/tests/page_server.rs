@@ -101,3 +101,18 @@ fn a_browser_that_reads_nothing_never_delays_the_stream() {
     }
     drop(idle);
 }
+
+#[test]
+fn a_request_that_comes_byte_by_byte_is_ended() {
+    let server = server();
+    let mut link = TcpStream::connect(server.address()).unwrap();
+    let begun = Instant::now();
+    // Each byte comes long before a time-out of single reads.
+    while link.write_all(b"G").is_ok() {
+        assert!(begun.elapsed() < HANGS, "the request has no end");
+        thread::sleep(Duration::from_millis(300));
+    }
+    assert!(begun.elapsed() > Duration::from_secs(1));
+    let own = format!("Host: {}\r\n", server.address());
+    assert!(answered(&server, "GET /", &own).ends_with("<p>page</p>"));
+}

@@ -8,6 +8,9 @@
 //! | markers of a C3D from another process have the forces of the batch           | 60 N                                         |
 //! | the live page gets the results; an idle browser changes none                  | exact                                        |
 //! | a port in use and a wrong address are refused by name                         | exact                                        |
+//! | units, clocks and encodings are named once, and read where they are certain  | exact                                        |
+//! | a sender that starts again loses no frame                                     | exact                                        |
+//! | a web page, a silent client and a stray datagram get nothing                  | exact                                        |
 
 use crate::shared_data::data;
 use crate::workbench::Workbench;
@@ -71,8 +74,15 @@ fn piped(bench: &Workbench, lines: Vec<String>) -> (Vec<Value>, String) {
     let output = child.wait_with_output().unwrap();
     sender.join().unwrap();
     let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{errors}");
-    (answers(&output.stdout), errors)
+    let answers = answers(&output.stdout);
+    let is_used = !results(&answers).is_empty();
+    assert_eq!(output.status.code(), Some(if is_used { 0 } else { 2 }), "{errors}");
+    (answers, errors)
+}
+
+/// The kinds of notices, in order.
+fn notices(answers: &[Value]) -> Vec<&str> {
+    answers.iter().filter_map(|answer| answer["notice"].as_str()).collect()
 }
 
 fn answers(bytes: &[u8]) -> Vec<Value> {
@@ -209,12 +219,14 @@ fn a_datagram_of_another_program_ends_no_sequence() {
         }
         if place == FEW / 2 {
             stray.send(b"x").unwrap();
-            assert_eq!(receive(&stray)[1]["notice"], "refused");
         }
     }
     sender.send(&[]).unwrap();
     found.extend(results(&receive(&sender)));
     assert_eq!(found, expected);
+    // What is no message gets no answer: its sender may be another computer.
+    stray.set_nonblocking(true).unwrap();
+    assert!(stray.recv(&mut [0; 9]).is_err());
     server.kill().unwrap();
     server.wait().unwrap();
 }
@@ -325,10 +337,162 @@ fn what_cannot_be_streamed_is_refused_by_name() {
     refused(&["--rate", "100", "--input", &format!("tcp:{port}")], &["in use by another program"]);
     let wrong = bench.run(&[&STREAM[..], &["--input", "serial:3"]].concat());
     assert!(wrong.code == Some(2) && wrong.stderr.contains("udp:PORT"), "{}", wrong.stderr);
+    // A stream of which nothing could be used has failed.
+    let (_, errors) = piped(&bench, vec!["hello\n".to_owned(); 3]);
+    assert!(errors.contains("no frame could be used") && errors.contains("3 x refused"), "{errors}");
     // Names that the model does not have are said, with those that it has.
     let (answers, _) = piped(&bench, vec!["{\"coordinates\": [\"elbow\"]}\n".to_owned()]);
     let message = answers[1]["message"].as_str().unwrap();
     assert!(message.contains("no coordinate `elbow`") && message.contains("hip_flexion_r"), "{message}");
+}
+
+/// Lines of the first seconds of the walk, each frame with its values changed, and with its number or time.
+fn changed(bench: &Workbench, head: &Value, frame: impl Fn(usize, &[f64], &[String]) -> Value) -> Vec<String> {
+    let (names, values) = walk(bench);
+    let mut head = head.clone();
+    head["coordinates"] = json!(names);
+    let lines = values[..280].iter().enumerate().map(|(number, q)| frame(number, q, &names));
+    [head].into_iter().chain(lines).map(|line| format!("{line}\n")).collect()
+}
+
+/// Whether a coordinate of the walk is a position.
+fn is_position(name: &str) -> bool {
+    ["pelvis_tx", "pelvis_ty", "pelvis_tz"].contains(&name)
+}
+
+fn scaled(q: &[f64], names: &[String], angles: f64, positions: f64) -> Vec<f64> {
+    let scale = |(x, name): (&f64, &String)| x * if is_position(name) { positions } else { angles };
+    q.iter().zip(names).map(scale).collect()
+}
+
+#[test]
+fn units_are_checked_as_in_a_recording_and_named_once() {
+    let bench = Workbench::new("stream_units");
+    let degrees = json!({ "angles": "deg" });
+    let numbered = |scale: [f64; 2]| {
+        move |frame: usize, q: &[f64], names: &[String]| {
+            json!({ "frame": frame,
+        "q": scaled(q, names, scale[0], scale[1]) })
+        }
+    };
+    let in_radians = 1_f64.to_radians();
+    for (head, scale, expected) in [
+        (&degrees, [1.0, 1.0], None),
+        (&json!({}), [1.0, 1.0], Some("motion.degrees_as_radians")),
+        (&json!({ "angles": "rad" }), [in_radians, 1.0], None),
+        (&degrees, [in_radians, 1.0], Some("motion.radians_as_degrees")),
+        (&degrees, [1.0, 1000.0], Some("motion.length_unit")),
+    ] {
+        let (answers, errors) = piped(&bench, changed(&bench, head, numbered(scale)));
+        let expected: Vec<&str> = expected.into_iter().chain(["ended"]).collect();
+        assert_eq!(notices(&answers), expected, "{errors}");
+    }
+}
+
+#[test]
+fn the_heading_of_a_turning_person_has_no_jump_of_a_whole_turn() {
+    let bench = Workbench::new("stream_turns");
+    let turned = |wrap: bool| {
+        move |frame: usize, q: &[f64], names: &[String]| {
+            let mut q = q.to_vec();
+            let heading = names.iter().position(|name| name == "pelvis_rotation").unwrap();
+            q[heading] += 180.0;
+            q[heading] -= if wrap && q[heading] > 180.0 { 360.0 } else { 0.0 };
+            json!({ "frame": frame, "q": q })
+        }
+    };
+    let head = json!({ "angles": "deg" });
+    let (whole, _) = piped(&bench, changed(&bench, &head, turned(false)));
+    let (wrapped, errors) = piped(&bench, changed(&bench, &head, turned(true)));
+    assert!(notices(&wrapped).contains(&"motion.unwrapped"), "{errors}");
+    for ((frame, expected), (_, found)) in results(&whole).iter().zip(results(&wrapped)) {
+        let apart = expected.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 0.01, "frame {frame}: {apart}");
+    }
+}
+
+#[test]
+fn times_in_another_unit_are_read_and_another_rate_is_named_once() {
+    let bench = Workbench::new("stream_clock");
+    let head = json!({ "angles": "deg" });
+    let timed = |step: f64| move |frame: usize, q: &[f64], _: &[String]| json!({ "time": step * frame as f64, "q": q });
+    let (seconds, errors) = piped(&bench, changed(&bench, &head, timed(0.01)));
+    assert_eq!(notices(&seconds), ["ended"], "{errors}");
+    for (step, words) in [(10.0, "milliseconds"), (1e4, "microseconds"), (0.005, "200 Hz"), (0.02, "50 Hz")] {
+        let (answers, errors) = piped(&bench, changed(&bench, &head, timed(step)));
+        assert_eq!(notices(&answers), ["clock", "ended"], "{errors}");
+        assert!(errors.contains(words), "{errors}");
+        let least = if step > 1.0 { 278 } else { 130 };
+        assert!(results(&answers).len() >= least, "{}", results(&answers).len());
+    }
+    // A loss is told from another rate once the rate is known.
+    let mut lines = changed(&bench, &head, timed(0.01));
+    lines.drain(3..5);
+    assert_eq!(notices(&piped(&bench, lines).0), ["lost", "ended"]);
+}
+
+#[test]
+fn a_sender_that_starts_again_loses_no_frame() {
+    let bench = Workbench::new("stream_again");
+    let again = |frame: usize, q: &[f64], _: &[String]| json!({ "frame": frame % 70, "q": q });
+    let (answers, errors) = piped(&bench, changed(&bench, &json!({ "angles": "deg" }), again));
+    assert_eq!(notices(&answers), ["restarted", "restarted", "restarted", "ended"], "{errors}");
+    let frames: Vec<u64> = results(&answers).iter().map(|(frame, _)| *frame).collect();
+    assert_eq!(frames, (0..4).flat_map(|_| 0..70).collect::<Vec<u64>>());
+}
+
+#[test]
+fn utf_16_and_python_s_numbers_are_read() {
+    let bench = Workbench::new("stream_encoding");
+    let lines = replay(&bench, FEW);
+    let expected = results(&piped(&bench, lines.clone()).0);
+    for marks in [[0xff, 0xfe], [0xfe, 0xff]] {
+        let wide = |unit: u16| if marks[0] == 0xff { unit.to_le_bytes() } else { unit.to_be_bytes() };
+        let bytes = lines.concat().replace('\n', "\r\n");
+        let bytes: Vec<u8> = marks.into_iter().chain(bytes.encode_utf16().flat_map(wide)).collect();
+        let mut child = started(&bench, &[]);
+        child.stdin.take().unwrap().write_all(&bytes).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let answers = answers(&output.stdout);
+        assert_eq!(notices(&answers), ["encoding", "ended"]);
+        assert_eq!(results(&answers), expected);
+    }
+    let missing = |word: &str| {
+        let (names, values) = walk(&bench);
+        let with = |frame: usize| {
+            let line = line(frame, &values[frame]);
+            if frame == 9 { line.replacen(&values[9][0].to_string(), word, 1) } else { line }
+        };
+        [heading(&names)].into_iter().chain((0..FEW).map(with)).collect::<Vec<String>>()
+    };
+    let null = piped(&bench, missing("null")).0;
+    for word in ["NaN", "nan", "-nan"] {
+        assert_eq!(piped(&bench, missing(word)).0, null, "{word}");
+    }
+}
+
+#[test]
+fn a_web_page_cannot_feed_the_port_and_a_silent_client_is_released() {
+    let bench = Workbench::new("stream_web");
+    let lines = replay(&bench, FEW).concat();
+    let mut server = started(&bench, &["--input", "tcp:0", "--idle", "0.5"]);
+    let address = address(&mut server);
+    let mut page = TcpStream::connect(address).unwrap();
+    let head = format!("POST / HTTP/1.1\r\nHost: {address}\r\nContent-Length: {}\r\n\r\n", lines.len());
+    page.write_all(format!("{head}{lines}").as_bytes()).unwrap();
+    let mut received = Vec::new();
+    // The connection may be reset, because the frames were not read.
+    let _ = page.read_to_end(&mut received);
+    assert!(results(&answers(&received)).is_empty());
+    let mut silent = TcpStream::connect(address).unwrap();
+    silent.write_all(b"{").unwrap();
+    received.clear();
+    silent.read_to_end(&mut received).unwrap();
+    assert_eq!(notices(&answers(&received))[0], "idle");
+    let used = answers(&over_tcp(address, lines.into_bytes()));
+    assert_eq!(results(&used).len(), FEW);
+    server.kill().unwrap();
+    server.wait().unwrap();
 }
 
 /// Lines of the markers of a C3D: names and unit, then a frame each.

@@ -1,6 +1,9 @@
 //! Messages of a stream, and the order of its frames.
 
-use ambulo_cli::internals::{AngleUnit, Numbering, Place, from_json, from_record, record_bytes, to_record};
+use ambulo_cli::internals::{
+    AngleUnit, Clock, ClockDoubt, Numbering, Place, from_json, from_record, is_http, record_bytes, to_record,
+    without_nan,
+};
 
 #[test]
 fn records_have_the_numbers_that_were_written() {
@@ -48,4 +51,42 @@ fn lost_doubled_late_and_new_sequences_are_told_apart() {
     for (number, expected) in cases {
         assert_eq!(numbering.place(number, far), expected, "{number}");
     }
+}
+
+#[test]
+fn numbers_that_are_none_are_missing_and_names_keep_their_letters() {
+    let line = br#"{"frame": 3, "q": [NaN, -nan, 1.5,nan]}"#;
+    assert_eq!(&*without_nan(line), br#"{"frame": 3, "q": [null,null, 1.5,null]}"#);
+    let names = br#"{"coordinates": ["NaN", "nan, [nan]"]}"#;
+    assert_eq!(&*without_nan(names), names);
+    assert_eq!(from_json(line).unwrap().q, Some(vec![None, None, Some(1.5), None]));
+    assert!(from_json(b"{\"q\": [Infinity]}").is_err());
+}
+
+#[test]
+fn requests_of_http_are_told_from_frames() {
+    for request in ["GET / HTTP/1.1\r\n", "POST /x HTTP/1.1\r\n", "OPTIONS * HTTP/1.1\r\n"] {
+        assert!(is_http(request.as_bytes()), "{request}");
+    }
+    assert!(!is_http(b"{\"frame\": 0}") && !is_http(b"GETTING") && !is_http(b""));
+}
+
+#[test]
+fn a_clock_finds_its_unit_and_its_rate_and_is_not_misled_by_losses_or_jitter() {
+    let doubts = |times: &mut dyn Iterator<Item = f64>| {
+        let mut clock = Clock::new(100.0);
+        times.filter_map(|time| clock.doubt(time)).collect::<Vec<ClockDoubt>>()
+    };
+    let even = |step: f64| doubts(&mut (0..60).map(|frame| step * f64::from(frame)));
+    assert_eq!(even(0.01), []);
+    assert_eq!(even(10.0), [ClockDoubt::Unit("milliseconds")]);
+    assert_eq!(even(1e7), [ClockDoubt::Unit("nanoseconds")]);
+    assert!(matches!(even(0.005)[..], [ClockDoubt::Rate(rate)] if (rate - 200.0).abs() < 1e-6));
+    // Times in milliseconds of another rate: both.
+    assert!(matches!(even(5.0)[..], [ClockDoubt::Unit("milliseconds"), ClockDoubt::Rate(_)]));
+    // Two losses of ten seconds are no unit of their own; late and early frames are no other rate.
+    assert_eq!(doubts(&mut [0.0, 10.0, 10.01, 20.0, 20.01].into_iter()), []);
+    let jitter = |frame: i32| 0.01 * f64::from(frame) + [0.0, 0.003, -0.002][(frame % 3) as usize];
+    assert_eq!(doubts(&mut (0..60).map(jitter)), []);
+    assert_eq!(doubts(&mut (0..60).filter(|frame| frame % 4 != 1).map(|frame| 0.01 * f64::from(frame))), []);
 }

@@ -89,6 +89,7 @@ impl Given {
             "mass" => job.size.mass_kg = Some(given.number()?),
             "height" => job.size.height_m = Some(given.number()?),
             "trial" => job.trial = Some(given.text()?),
+            "subject" => job.subject = Some(given.text()?),
             "figure" => job.segments = given.parsed()?,
             "markers" => job.markers = Some(given.path()?.display().to_string()),
             "right" => job.forces.right = Some(given.parsed()?),

@@ -3,6 +3,7 @@
 use ambulo::analysis::GroundAgreement;
 use ambulo::study::TrackedGround;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// How tracking changed a motion until feet on soft ground supplied its external forces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,6 +16,8 @@ pub struct TrackingSummary {
     pub residual_peak: f64,
     /// Root mean square of the changes of all rotations [deg].
     pub rotations_rms_deg: f64,
+    /// Largest change of each rotation by the name of its coordinate [deg].
+    pub largest_change_deg: BTreeMap<String, f64>,
     /// Root mean square of the changes of the position of the root [mm].
     pub root_rms_mm: f64,
     /// Steps of the solver.
@@ -28,11 +31,12 @@ impl TrackingSummary {
     /// The summary of what tracking did.
     #[must_use]
     pub fn of(tracked: &TrackedGround) -> TrackingSummary {
-        let TrackedGround { residual, moved, steps, predicted } = tracked;
+        let TrackedGround { residual, moved, turned, steps, predicted } = tracked;
         TrackingSummary {
             residual_rms: residual.0,
             residual_peak: residual.1,
             rotations_rms_deg: moved[0].to_degrees(),
+            largest_change_deg: turned.iter().map(|(name, rad)| (name.clone(), rad.to_degrees())).collect(),
             root_rms_mm: 1e3 * moved[1],
             steps: *steps,
             predicted: predicted.clone(),

@@ -15,6 +15,8 @@ fn person() -> PersonalErrors {
         stances: BySide { right: 2, left: 0 },
         errors: BySide { right: errors, left: StanceErrors::default() },
         estimator: 0x00ab_cdef_0123_4567,
+        subject: Some(0x0123_4567_89ab_cdef),
+        excess: 1.25,
     }
 }
 

@@ -19,7 +19,7 @@ fn the_newest_part_is_smoothed_as_in_the_whole_window() {
     };
     for frame in 0..frames {
         let t = 0.01 * frame as f64;
-        buffer.push(&model, &(0..model.coordinates().len()).map(|c| value(c, t)).collect::<Vec<f64>>()).unwrap();
+        buffer.push(&model, &(0..model.coordinates().len()).map(|c| value(c, t)).collect::<Vec<f64>>());
     }
     let newest = TailSmoother::new(smoother, 100.0, frames).unwrap();
     let mut whole = newest.clone();

@@ -5,7 +5,7 @@ use crate::common::random::{self, Curves, Kind, Random, Waves};
 use crate::marker_data::{gait2392, rajagopal};
 use ambulo::findings::Findings;
 use ambulo::kinematics::body_motion;
-use ambulo::kinematics::marker_fit::{FitError, FitMethod, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
+use ambulo::kinematics::marker_fit::{FitMethod, FitSettings, MarkerFit, SmoothnessPrior, fit_markers};
 use ambulo::model::{CoordinateKind, Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
@@ -176,14 +176,29 @@ fn recordings_of_walking_keep_their_distances_and_lose_their_noise() {
     }
 }
 
+/// Longer recordings than 2000 frames are fitted in blocks: the first 2000 frames alone are one block.
 #[test]
-fn recordings_that_would_fill_the_memory_are_refused() {
+fn a_long_recording_in_blocks_has_the_postures_of_one_block() {
     let mut r = Random::new(4);
-    let model =
-        marked(&mut r, &[Kind::Free, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball, Kind::Ball], 1);
-    let states = vec![State::rest(&model); 80_000];
-    let markers = recorded(&model, 0.01, &states);
-    let settings = FitSettings { method: FitMethod::Together(SmoothnessPrior::default()), ..FitSettings::default() };
-    let error = fit_markers(&model, &markers, &settings, &mut Findings::default()).unwrap_err();
-    assert!(matches!(error, FitError::TooLong { frames: 80_000, unknowns: 24, .. }), "{error}");
+    let model = marked(&mut r, &[Kind::Free, Kind::Ball, Kind::Pin], 4);
+    let waves = Waves::new(&mut r, &model);
+    let states: Vec<State> = (0..2600).map(|i| waves.at(0.01 * f64::from(i))).collect();
+    let mut whole = recorded(&model, 0.01, &states);
+    for marker in &mut whole.markers {
+        marker.positions.iter_mut().for_each(|place| *place += r.vector(0.0035));
+    }
+    let mut part = whole.clone();
+    part.times.truncate(2000);
+    part.markers.iter_mut().for_each(|marker| marker.positions.truncate(2000));
+    let smoothing = SmoothnessPrior::default();
+    let [in_blocks, as_one] = [&whole, &part].map(|markers| fitted(&model, markers, Some(smoothing)));
+    let mut apart = 0.0_f64;
+    for (found, expected) in in_blocks.motion.columns.iter().zip(&as_one.motion.columns) {
+        let (found, expected) = (found.as_ref().unwrap(), expected.as_ref().unwrap());
+        // The end of the part does not know what follows.
+        let pairs = found.iter().zip(&expected[..1900]);
+        apart = pairs.map(|(a, b)| (a - b).abs()).fold(apart, f64::max);
+    }
+    println!("{apart:.1e} rad or m from one block");
+    assert!(apart < 1e-6, "{apart}");
 }

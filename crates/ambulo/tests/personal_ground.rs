@@ -8,13 +8,13 @@
 //! | another person, another activity, no plates, no stance: refused  | -                                                              |
 
 use crate::shared_data::data;
-use ambulo::findings::Findings;
-use ambulo::ground::predict::{FittedParameters, PersonalErrors, PredictSettings, StanceErrors, trusted};
+use ambulo::findings::{Code, Findings};
+use ambulo::ground::predict::{FittedParameters, PersonalErrors, PredictSettings, StanceErrors, checksum, trusted};
 use ambulo::model::Side;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::study::{
-    self, CalibrationError, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Settings, Source,
-    StandingTrial, StudyError, personal_errors,
+    self, CalibrationError, GroundSettings, LaboratoryFile, MarkerBody, MarkerSource, Outcome, QualityState, Settings,
+    Source, StandingTrial, StudyError, personal_errors,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -87,6 +87,34 @@ fn a_trial_on_plates_corrects_the_other_trials_of_the_person() {
     assert_eq!(second_is(without_plates), CalibrationError::NoPlates { trial: 1 });
     assert_eq!(second_is(without_stance), CalibrationError::NoStance { trial: 1 });
     assert!(matches!(second_is(standing), CalibrationError::NotWalking { trial: 1, .. }));
+    let mut bad = raw.clone();
+    bad.quality.state = QualityState::Bad;
+    assert!(matches!(second_is(bad), CalibrationError::BadTrial { trial: 1, .. }));
+    let named = |name: &str| Outcome { subject: Some(checksum(name)), ..raw.clone() };
+    let others = personal_errors(&[named("anna"), named("berta")]).unwrap_err();
+    assert_eq!(others, CalibrationError::OtherName { trial: 1 });
+    assert!(!person.is_unusual(), "{}", person.excess);
+    calibrations_that_do_not_fit_are_reported(&second, &person);
+}
+
+/// A calibration of another person, one with unusual errors, and one that the plates of the recording contradict.
+fn calibrations_that_do_not_fit_are_reported(trial: &Source, person: &PersonalErrors) {
+    let reported = |person: PersonalErrors| {
+        let prediction = PredictSettings { person: Some(person), ..PredictSettings::default() };
+        let settings = Settings { ground: GroundSettings::Predicted, prediction, ..Settings::default() };
+        let mut findings = Findings::default();
+        study::run(trial.clone(), &settings, &mut findings).unwrap();
+        let codes = [Code::PredictionOtherPerson, Code::PredictionCalibrationUnusual, Code::PredictionCalibrationWorse];
+        codes.map(|code| findings.has(code))
+    };
+    assert_eq!(reported(person.clone()), [false; 3]);
+    let mut wrong = PersonalErrors { excess: 3.5, subject: Some(1), ..person.clone() };
+    for foot in [&mut wrong.errors.right, &mut wrong.errors.left] {
+        foot.force[1].0.iter_mut().for_each(|error| *error = 0.3);
+    }
+    // The file of this recording names nobody, or somebody else than the checksum says.
+    let [_, is_unusual, is_worse] = reported(wrong);
+    assert!(is_unusual && is_worse);
 }
 
 #[test]
@@ -110,6 +138,8 @@ fn what_is_added_is_the_mean_error_times_its_trust() {
         stances: ambulo::model::BySide { right: 3, left: 0 },
         errors: ambulo::model::BySide { right: curves, left: StanceErrors::default() },
         estimator: FittedParameters::default().fingerprint(),
+        subject: None,
+        excess: 0.0,
     };
     let (without, with) = (ground(None), ground(Some(person)));
     let weight = model.mass() * model.gravity().norm();

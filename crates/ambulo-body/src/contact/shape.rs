@@ -294,6 +294,19 @@ impl Shape {
         matches!(self.form, Form::Sphere { .. })
     }
 
+    /// Half of the smallest extent along its axes [m]: a surface that overlaps further has its nearest side behind it.
+    /// Infinite for half-spaces and height fields, which have no other side.
+    #[must_use]
+    pub fn half_size(&self) -> f64 {
+        if let Some(radius) = self.radius() {
+            return radius;
+        }
+        match (&self.form, self.bounding(&Pose::IDENTITY)) {
+            (Form::HeightField { .. }, _) | (_, None) => f64::INFINITY,
+            (_, Some((low, high))) => 0.5 * (high - low).min(),
+        }
+    }
+
     /// Radius of a sphere or a capsule [m]; `None` for other shapes.
     #[inline]
     #[must_use]

@@ -122,6 +122,8 @@ pub struct Convergence {
     pub converged: bool,
     /// The row with the largest departure; `None` without rows.
     pub worst: Option<usize>,
+    /// Whether the search for a solution ended because its work was used up.
+    pub gave_up: bool,
 }
 
 /// Solution of a constraint graph: motions and multipliers.

@@ -29,6 +29,9 @@ use super::within_law::confine;
 use crate::numerics::DenseLu;
 use crate::numerics::elementary::hypot;
 
+/// A step costs at least as much as so many products, however few rows there are: a solve of the trees, and trials of
+/// shorter steps. Factors of 40 rows cost as much.
+const LEAST_PRODUCTS: usize = 20_000;
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
 /// Number of turns, and the largest number of Newton steps in a turn.
@@ -80,6 +83,8 @@ pub(super) struct NonsmoothWorkspace {
     /// Products so far; no turn begins after the largest number.
     products: usize,
     most_products: usize,
+    /// Whether the last search ended because of this number.
+    pub(super) is_used_up: bool,
 }
 
 /// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the
@@ -94,7 +99,7 @@ pub(super) fn solve(
     convergence: &mut Convergence,
 ) -> bool {
     w.begin(problem, lambda);
-    w.most_products = most_products;
+    (w.most_products, w.is_used_up) = (most_products, false);
     convergence.factorizations += 1;
     convergence.iterations += 1;
     let mut found = *convergence;
@@ -147,6 +152,7 @@ impl Nonsmooth<'_, '_> {
             self.w.added = ADDED;
             if turn > 0 {
                 if self.w.products > self.w.most_products {
+                    self.w.is_used_up = true;
                     return;
                 }
                 self.start_again(turn);
@@ -239,7 +245,7 @@ impl Nonsmooth<'_, '_> {
         self.measure();
         let NonsmoothWorkspace { delassus, lu, lambda, u, left, rho, step, added, products, .. } = &mut *self.w;
         lu.clear(lambda.len());
-        *products += lambda.len().pow(3) / 3;
+        *products += (lambda.len().pow(3) / 3).max(LEAST_PRODUCTS);
         for group in &self.graph.groups {
             differentiate(group, rho, lambda, u, delassus, *added, lu);
         }

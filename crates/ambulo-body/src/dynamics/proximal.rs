@@ -77,6 +77,9 @@ const POLISH: usize = 20;
 /// second.
 const FIRST_PRODUCTS: usize = 10_000_000;
 const LAST_PRODUCTS: usize = 300_000_000;
+/// With fewer rows than this a thousand steps are enough: of fewer forces fewer combinations stick and slip.
+const MANY_ROWS: usize = 40;
+const PRODUCTS_OF_FEW_ROWS: usize = 20_000_000;
 /// The last work is divided by this where rows may have no solution.
 const DOUBTFUL_SHARE: usize = 15;
 /// Below this residual the convex problem is left out; above `FAR`, after it, rows contradict each other, and nothing
@@ -368,12 +371,14 @@ impl Newton<'_, '_> {
                 return;
             }
         }
-        let work = if self.may_contradict() { LAST_PRODUCTS / DOUBTFUL_SHARE } else { LAST_PRODUCTS };
+        let most = if self.graph.rows.len() < MANY_ROWS { PRODUCTS_OF_FEW_ROWS } else { LAST_PRODUCTS };
+        let work = if self.may_contradict() { most / DOUBTFUL_SHARE } else { most };
         if self.w.best.residual() < FAR && self.solve_laws(motions, coordinates, lambda, convergence, work) {
             return;
         }
         convergence.residual = f64::INFINITY;
         self.w.best.restore(motions, coordinates, lambda, convergence);
+        convergence.gave_up = self.w.nonsmooth.is_used_up;
         // Displacements are projected on the rows that are active now.
         self.guess(lambda);
         self.factor(convergence);

@@ -69,7 +69,9 @@ codes! {
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
-        "The file does not state whether its angles are in degrees or radians; they were read as radians."
+        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as \
+         degrees if \
+         they are too large for radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
         "Angles were read as radians, but they are as large as angles in degrees."
@@ -77,6 +79,10 @@ codes! {
     MotionRadiansAsDegrees "motion.radians_as_degrees" Warning
         "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
+    MotionLengthUnit "motion.length_unit" Warning
+        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or \
+         centimetres."
+        "State the unit of the positions, or convert them to metres.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
         "Nothing to do.";
@@ -90,9 +96,14 @@ codes! {
         "The recording has no column for coordinates of the model; their default values were used throughout."
         "Record these coordinates, or check that their constant values suit the motion.";
     MotionCoupledMismatch "motion.coupled_mismatch" Warning
-        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values \
-         were used."
+        "Recorded values of a coordinate differ from those of its coupler, or those of a coordinate that the model \
+         determines have gaps; the model's values were used."
         "Check that recording and model belong together.";
+    MotionModelReplaced "motion.model_replaced" Warning
+        "Recorded values of a coordinate that the model locks or prescribes differ from those of the model; the \
+         recorded \
+         values were used, as in OpenSim's inverse dynamics."
+        "Check that recording and model belong together; without the column, the values of the model are used.";
     MotionOutOfRange "motion.out_of_range" Warning
         "A coordinate leaves the range that the model allows."
         "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion \
@@ -224,8 +235,9 @@ codes! {
         "Neither a force plate nor the posture shows which axis is up."
         "Name heel, toe and pelvis markers as a marker set does.";
     LaboratoryForwardUnclear "laboratory.forward_unclear" Warning
-        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing."
-        "Name heel, toe and pelvis markers as a marker set does.";
+        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing or \
+         point in different directions."
+        "Name heel, toe and pelvis markers as a marker set does; check whether left and right are exchanged.";
     LaboratoryBackwards "laboratory.backwards" Warning
         "The body walks backwards; forward is the direction that it faces."
         "Check left and right markers if the person walked forwards.";
@@ -286,6 +298,25 @@ codes! {
     MarkersHeld "markers.held" Note
         "No marker determines some coordinates of the body; constant values are used."
         "Add markers on the named segments if these coordinates matter.";
+    MarkersNotMeasured "markers.not_measured" Warning
+        "A coordinate of a leg or the pelvis was not measured: nothing recorded determines it, so that it keeps one \
+         value, or it lies on its limit in more than a tenth of the frames. Clinical tables and scores leave it out."
+        "Record all markers of the segment in the motion and in the standing trial; at a limit, check for misplaced or \
+         exchanged markers.";
+    MarkersArms "markers.arms" Note
+        "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
+        "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
+    MarkersSidesExchanged "markers.sides_exchanged" Warning
+        "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were \
+         exchanged \
+         back."
+        "Correct the labels. If the axes of the laboratory are left-handed, mirror one axis instead: the sides of all \
+         results are then exchanged.";
+    MarkersMoved "markers.moved" Warning
+        "A marker is elsewhere on the body than in the standing trial, while the others agree: it moved, or was put on \
+         anew."
+        "Record a standing trial with the markers of the motion, or leave out the standing trial; which of the two \
+         recordings is right cannot be decided.";
     MarkersWindow "markers.window" Warning
         "Markers are missing for too long outside a part of the recording; only this part was analysed."
         "Allow longer gaps, or choose another part of the recording.";
@@ -302,6 +333,14 @@ codes! {
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";
+    CalibrationPlaced "calibration.placed" Warning
+        "The standing trial lacks a marker of a leg or the pelvis that the motion has; its place on the body was taken \
+         from the motion."
+        "Nothing to do if the angles of this segment are plausible; otherwise record a standing trial with all \
+         markers.";
+    CalibrationOtherLimbs "calibration.other_limbs" Warning
+        "The limbs of the standing trial have other lengths than those of the motion: it is another person's."
+        "Give the standing trial of this person, or none.";
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
@@ -353,6 +392,11 @@ codes! {
         "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % \
          and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
+    MassReplaced "mass.replaced" Warning
+        "Force plates carry another mass than the model has, and none is stated; the masses of the model were scaled \
+         to \
+         the weighed one."
+        "State the body mass if the weighed one is wrong; the mass of the model keeps the model as it is.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
         "Nothing to do.";
@@ -372,6 +416,9 @@ codes! {
     PlatesUnitUnknown "plates.unit_unknown" Warning
         "The unit of a force is unknown; it was read as newtons."
         "Correct the unit in the file.";
+    PlatesUnitByWeight "plates.unit_by_weight" Warning
+        "By the unit in the file, steps on the plates weigh what no person does; another unit fits and was used."
+        "Correct the unit, the scale or the calibration of the channels in the file.";
     PlatesPolynomial "plates.polynomial" Note
         "The file has a polynomial that corrects the centre of pressure; it was not used."
         "Nothing to do; the correction is some millimetres.";
@@ -399,6 +446,21 @@ codes! {
     PlatesCenterOutside "plates.center_outside" Warning
         "The centre of pressure is often outside its plate."
         "Check CORNERS, ORIGIN, CHANNEL and the units of the plate in the file.";
+    PlatesCornersOrdered "plates.corners_ordered" Warning
+        "With the corners in the order of the file the loads of a plate lie beside the feet, with another order under \
+         them; the other order was used."
+        "Correct FORCE_PLATFORM:CORNERS in the file.";
+    PlatesCornersUnclear "plates.corners_unclear" Warning
+        "The loads of a plate lie beside the feet; several orders of its corners put them under the feet, and none was \
+         used."
+        "Correct FORCE_PLATFORM:CORNERS in the file, or state how the plate is turned.";
+    PlatesMirrored "plates.mirrored" Warning
+        "A horizontal force of a plate or a force table points away from the mass centre where it must point towards \
+         it: it is mirrored or turned."
+        "State the correction of the plate, or correct the sign of the channel or column.";
+    PlatesCrossTalk "plates.cross_talk" Warning
+        "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."
+        "Check cables and amplifiers of the plates.";
     PlatesPartial "plates.partial" Warning
         "Only part of a foot's load was measured."
         "Choose a step that is wholly on a plate.";
@@ -425,6 +487,14 @@ codes! {
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
         "Rotate the forces of the table if their axes are different.";
+    LoadsTurned "loads.turned" Warning
+        "The forces of a table do not act along y, upwards, but along another axis: the table has other axes; it was \
+         turned."
+        "Turn the table so that y is up and x forward, or say so to the program that wrote it.";
+    LoadsUnitByWeight "loads.unit_by_weight" Warning
+        "Steps in a force table weigh what no person does in newtons, or its moments are too large for N.m; another \
+         unit fits and was used."
+        "Write newtons, metres and newton metres.";
     LoadsSwitchedOff "loads.switched_off" Note
         "A load is switched off in its file and was not used."
         "Nothing to do.";
@@ -438,7 +508,8 @@ codes! {
         "Forces were recorded for a part of the motion only; the rest was left out."
         "Nothing to do.";
     ForcesDelayed "forces.delayed" Warning
-        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual force \
+        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual \
+         force \
          and residual moment fall by a tenth or more if the forces are shifted."
         "Synchronise plates and cameras, or shift the forces by the delay in the message.";
     LoadsNoSide "loads.no_side" Warning
@@ -499,6 +570,13 @@ codes! {
     GroundPredicted "ground.predicted" Note
         "Without measured forces the ground forces are predicted from the motion."
         "Give measured forces if there are any.";
+    StancesPredicted "stances.predicted" Note
+        "A loaded foot was not on a force plate, or only in part; moments, powers and reactions have predicted ground \
+         forces there."
+        "Nothing to do; `stances.csv` and the columns `ground_source` list these times.";
+    StancesUnknown "stances.unknown" Warning
+        "A loaded foot was not on a force plate, and its load cannot be predicted reliably."
+        "Choose the time in which every loaded foot is on a plate; `stances.csv` lists the others.";
     ComparisonNone "comparison.none" Warning
         "No foot was alone and wholly on a plate, so the prediction could not be compared with force plates."
         "Nothing to do.";
@@ -529,6 +607,17 @@ codes! {
     RefitNone "refit.none" Warning
         "No foot is at rest on the floor, so the refit changed nothing."
         "Check axes and units of the motion, and that feet touch the ground.";
+    PredictionOtherPerson "prediction.other_person" Warning
+        "The calibration of the predicted forces and the recording name different persons; the calibration was used."
+        "Calibrate with trials of this person, or correct the name of the subject in the files.";
+    PredictionCalibrationUnusual "prediction.calibration_unusual" Warning
+        "The calibration changes the predicted forces by more than three of their standard deviations, more than \
+         people \
+         differ."
+        "Check the trials of the calibration: force plates, markers and mass.";
+    PredictionCalibrationWorse "prediction.calibration_worse" Warning
+        "Force plates of this recording show larger errors with the calibration than without it."
+        "Leave the calibration out, or calibrate with trials of this person and this laboratory.";
     PredictionUntested "prediction.untested" Warning
         "The prediction of ground forces was never compared with force plates in this activity."
         "Use force plates, or treat ground forces and joint moments as estimates.";
@@ -552,13 +641,14 @@ codes! {
         "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
-        "Residual reduction did not converge."
-        "Interpret the results with care; wider tolerances may help.";
+        "Residual reduction did not converge, so the motion was not changed."
+        "Check mass, body and forces; wider tolerances may help.";
     TrackingResidualLeft "tracking.residual_left" Warning
         "Tracking did not remove the residual forces: more than 0.5 % of body weight is left at the root."
         "Choose a shorter time; check the size of the body, and whether anything but the feet supports the person.";
     TrackingLargeChange "tracking.large_change" Warning
-        "Tracking changed the rotations by more than 5 degrees (rms), more than the error of recorded motions."
+        "Tracking changed the rotations by more than 5 degrees (rms), or one of them by more than 20: more than the \
+         error of recorded motions."
         "Check mass, body and the motion of the feet; use predicted forces instead.";
     FeasibilityUnmeasuredSupport "feasibility.unmeasured_support" Note
         "Frames in which a foot may be on unmeasured ground were judged on predicted forces, or not at all without a \
@@ -593,14 +683,24 @@ codes! {
          energy); the nearest consistent velocities are used."
         "Give velocities that the joints allow, or only the rates of their coordinates.";
     EnergyRose "energy.rose" Warning
-        "The mechanical energy rose above that of the start although nothing drives the scene."
+        "The mechanical energy rose above that of the start, or of the last event, although nothing drives the scene."
         "Use a smaller time step, and remove overlaps and contradictory constraints.";
+    ClosureOpen "closure.open" Warning
+        "A loop closure is open although it had the time to close, or at the end: its points or axes cannot meet."
+        "Check where the closure is fixed, and whether joints, drives and obstacles let its points meet.";
+    BodyTooFast "body.too_fast" Warning
+        "A body moves further in a time step than its own size, near a thin obstacle or another body; it may pass \
+         through."
+        "Use a smaller time step, or thicker obstacles.";
     ContactDeepOverlap "contact.deep_overlap" Warning
         "Two surfaces overlap deeply at the start and are pushed apart."
         "Correct the initial positions.";
     SolverNotConverged "solver.not_converged" Warning
         "The constraints of a time step could not all be satisfied."
         "Use a smaller time step, or remove constraints that contradict each other.";
+    SolverWorkLimit "solver.work_limit" Warning
+        "The work of a time step was used up before its constraints were satisfied; the nearest forces were used."
+        "Use a smaller time step, and avoid masses, sizes and distances that differ by many orders of magnitude.";
     ContactNotRound "contact.not_round" Warning
         "Two bodies pass through each other, because their contact law needs a sphere or a capsule."
         "Use the regularised law.";
@@ -651,6 +751,20 @@ impl Code {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
+    }
+
+    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    #[must_use]
+    pub fn comes_first(self) -> bool {
+        matches!(
+            self,
+            Code::MarkersNotMeasured
+                | Code::MarkersSidesExchanged
+                | Code::MarkersMoved
+                | Code::CalibrationOtherLimbs
+                | Code::CalibrationOtherPerson
+                | Code::CalibrationPlaced
+        )
     }
 
     /// How much the finding matters.

@@ -5,15 +5,16 @@ use super::held::release_held_coordinates;
 use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
-use crate::model::{Coordinate, CoordinateKind, Model};
+use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model};
+use crate::numerics::median;
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
-const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
+pub(super) const LARGEST_PLAUSIBLE_ANGLE: f64 = 7.0;
 /// If all angles under a header that states degrees are smaller than this [deg], they were written in radians.
-const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
+pub(super) const SMALLEST_PLAUSIBLE_SPAN_DEG: f64 = 3.2;
 /// Smallest number of moving rotations for this test.
-const ENOUGH_ROTATIONS: usize = 4;
+pub(super) const ENOUGH_ROTATIONS: usize = 4;
 
 /// Reads the coordinates of `model` from a table. Columns are coordinate names or absolute state paths
 /// (`/jointset/hip_r/hip_flexion_r/value`); rotations are converted from degrees if the header states degrees.
@@ -30,16 +31,22 @@ pub fn coordinates_from_table(
     findings: &mut Findings,
 ) -> Result<Motion, MotionError> {
     let (kept, times) = rows_with_clock(table, findings)?;
-    let in_degrees = table.in_degrees.unwrap_or_else(|| {
-        findings
-            .report(Code::MotionUnitUnstated, "the motion's header has no `inDegrees`; its angles are read as radians");
-        false
+    let in_degrees = table.in_degrees.or_else(|| unit_of_names(table)).unwrap_or_else(|| {
+        let unit = unstated_unit(model, table);
+        let reason = match unit {
+            true => format!("degrees, because they exceed {LARGEST_PLAUSIBLE_ANGLE}"),
+            false => "radians".to_owned(),
+        };
+        let message = format!("the motion's header has no `inDegrees`; its angles are read as {reason}");
+        findings.report(Code::MotionUnitUnstated, message);
+        unit
     });
     let mut motion = Motion { origin: origin.to_owned(), times, columns: vec![None; model.coordinates().len()] };
     let mut unknown = Vec::new();
     for (name, values) in table.columns().skip(1) {
+        let (name, _) = without_unit(name);
         let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
-        match plain.and_then(|n| model.coordinate(n)) {
+        match plain.and_then(|n| coordinate_named(model, n)).filter(|id| motion.columns[id.index()].is_none()) {
             Some(id) => {
                 let turn = in_degrees && model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
                 let convert = |x: f64| if turn { x.to_radians() } else { x };
@@ -59,6 +66,46 @@ pub fn coordinates_from_table(
         jumps::report_jumps(model, &motion, findings);
     }
     Ok(motion)
+}
+
+/// Whether angles without a stated unit are in degrees: as radians they would be more than a turn.
+fn unstated_unit(model: &Model, table: &Table) -> bool {
+    let of_coordinate = |(name, values): (&str, &[f64])| {
+        let (name, _) = without_unit(name);
+        let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
+        let id = plain.and_then(|name| coordinate_named(model, name))?;
+        let is_rotation = model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+        let sizes = values.iter().map(|x| x.abs()).filter(|x| x.is_finite());
+        is_rotation.then(|| median(sizes).unwrap_or(0.0))
+    };
+    // The median of each column: a few wrong rows are no unit.
+    table.columns().skip(1).filter_map(of_coordinate).any(|usual| usual > LARGEST_PLAUSIBLE_ANGLE)
+}
+
+/// The coordinate with this name; if there is none, the only one with this name in other letters.
+fn coordinate_named(model: &Model, name: &str) -> Option<CoordinateId> {
+    let is_same = |id: &CoordinateId| model.coordinates()[id.index()].name.eq_ignore_ascii_case(name);
+    let mut others = model.coordinate_ids().filter(is_same);
+    model.coordinate(name).or_else(|| others.next().filter(|_| others.next().is_none()))
+}
+
+/// A name without the unit in brackets behind it, and whether this is a unit of angles: `Some(true)` for degrees.
+fn without_unit(name: &str) -> (&str, Option<bool>) {
+    let in_brackets = |open: char, close: char| name.trim_end().strip_suffix(close)?.rsplit_once(open);
+    let Some((plain, unit)) = in_brackets('(', ')').or_else(|| in_brackets('[', ']')) else { return (name, None) };
+    match unit.trim().to_lowercase().as_str() {
+        "deg" | "degrees" | "degree" | "°" => (plain.trim_end(), Some(true)),
+        "rad" | "radians" => (plain.trim_end(), Some(false)),
+        "m" => (plain.trim_end(), None),
+        _ => (name, None),
+    }
+}
+
+/// Whether the names of the columns state degrees; `None` if they state nothing, or contradict each other.
+fn unit_of_names(table: &Table) -> Option<bool> {
+    let mut units = table.names().iter().filter_map(|name| without_unit(name).1);
+    let first = units.next()?;
+    units.all(|unit| unit == first).then_some(first)
 }
 
 fn no_coordinate(model: &Model, table: &Table) -> MotionError {

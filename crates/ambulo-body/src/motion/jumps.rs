@@ -11,7 +11,7 @@ const SAME_ANGLE: f64 = 1.0;
 /// A jump is this many times larger than the usual change between the frames around it.
 const SUDDEN: f64 = 10.0;
 /// Frames before and after a change with which it is compared.
-const AROUND: usize = 5;
+pub(super) const AROUND: usize = 5;
 /// Fewer changes than this around a change do not show what is usual.
 const ENOUGH_AROUND: usize = 4;
 
@@ -65,15 +65,30 @@ pub struct Jumps {
 /// The jumps of a motion, without coordinates that have none.
 pub fn jumps(model: &Model, motion: &Motion) -> Vec<Jumps> {
     let of_coordinate = |coordinate: CoordinateId| {
-        let limits = match model.coordinates()[coordinate.index()].kind {
-            CoordinateKind::Rotation => ROTATION,
-            CoordinateKind::Translation => Limits { fastest: 10.0, bounds: [0.03, 0.1] },
-            CoordinateKind::Coupled => return None,
-        };
+        let limits = limits(model.coordinates()[coordinate.index()].kind)?;
         let frames = jumps_of_column(&motion.times, motion.columns[coordinate.index()].as_ref()?, &limits);
         (!frames.is_empty()).then_some(Jumps { coordinate, frames })
     };
     model.coordinate_ids().filter_map(of_coordinate).collect()
+}
+
+/// What is a jump of a coordinate; `None` for one that another coordinate determines.
+fn limits(kind: CoordinateKind) -> Option<Limits> {
+    match kind {
+        CoordinateKind::Rotation => Some(ROTATION),
+        CoordinateKind::Translation => Some(Limits { fastest: 10.0, bounds: [0.03, 0.1] }),
+        CoordinateKind::Coupled => None,
+    }
+}
+
+/// The change in the middle of successive values [rad or m] if it is a jump.
+pub(super) fn jump_in_the_middle(kind: CoordinateKind, values: &[f64], step_s: f64) -> Option<f64> {
+    let (limits, middle) = (limits(kind)?, values.len() / 2);
+    let change = values[middle] - values[middle - 1];
+    // Most changes are smaller than the smallest jump; the others are compared with those around them.
+    (change.abs() > limits.bounds[0]).then_some(())?;
+    let times: Vec<f64> = (0..values.len()).map(|place| place as f64 * step_s).collect();
+    jumps_of_column(&times, values, &limits).contains(&middle).then_some(change)
 }
 
 /// Names every other jump.
@@ -103,15 +118,19 @@ fn place(times: &[f64], frame: usize) -> String {
     format!("between frames {} and {} ({:.4} s)", frame, frame + 1, times[frame])
 }
 
+/// The whole turns in a change of an angle that is one but for a usual change.
+pub(super) fn whole_turns(change: f64) -> Option<f64> {
+    let whole = (change / TAU).round();
+    (change.abs() > PI && (change - whole * TAU).abs() < SAME_ANGLE).then_some(whole)
+}
+
 /// Removes whole turns; returns the frames where they began. Most of the angles keep their values.
 pub(super) fn unwrapped(column: &mut [f64]) -> Vec<usize> {
     let mut found = Vec::new();
     let (mut turns, mut last) = (0.0, f64::NAN);
     let mut removed = Vec::with_capacity(column.len());
     for (frame, x) in column.iter_mut().enumerate() {
-        let change = *x - turns * TAU - last;
-        let whole = (change / TAU).round();
-        if change.abs() > PI && (change - whole * TAU).abs() < SAME_ANGLE {
+        if let Some(whole) = whole_turns(*x - turns * TAU - last) {
             turns += whole;
             found.push(frame);
         }
@@ -146,7 +165,7 @@ fn jumps_of_column(times: &[f64], column: &[f64], limits: &Limits) -> Vec<usize>
     let is_jump = |i: &usize| {
         let [least, most] = limits.bounds;
         let allowed = (limits.fastest * (times[i + 1] - times[*i])).clamp(least, most);
-        if changes[*i] <= allowed || changes[*i].is_nan() {
+        if changes[*i] <= allowed || !changes[*i].is_finite() {
             return false;
         }
         let from = i.saturating_sub(AROUND);

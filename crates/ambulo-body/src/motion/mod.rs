@@ -20,6 +20,7 @@ mod import;
 mod jumps;
 mod laboratory;
 pub mod landmarks;
+mod live_checks;
 mod marker_recording;
 mod marker_table;
 mod real_points;
@@ -50,6 +51,7 @@ pub use import::coordinates_from_table;
 pub use jumps::{Jumps, jumps};
 pub use laboratory::{Heading, Laboratory, laboratory, laboratory_of_landmarks};
 pub use landmarks::Landmarks;
+pub use live_checks::LiveChecks;
 pub use marker_recording::{MarkerError, MarkerPath, MarkerRecording, markers_from_c3d, markers_from_trc};
 pub use marker_table::{is_marker_table, markers_from_table};
 #[doc(hidden)]

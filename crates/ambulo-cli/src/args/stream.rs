@@ -1,6 +1,7 @@
 //! Options of `ambulo stream`.
 
-use super::values::{Endpoint, endpoint, local_address, milliseconds, number};
+use super::values::{Endpoint, endpoint, local_address, milliseconds, number, zero_or_more_seconds};
+use ambulo::findings::word;
 use ambulo::spatial::{Mat3, Vec3};
 use clap::{Args as ClapArgs, ValueEnum};
 use serde::{Deserialize, Serialize};
@@ -47,6 +48,10 @@ pub(crate) struct StreamArgs {
     /// (127.0.0.1).
     #[arg(long, value_name = "SOURCE", default_value = "stdin", value_parser = endpoint)]
     pub(crate) input: Endpoint,
+    /// Over TCP, end a connection that sends no complete frame, or reads no result, for so long [s], so that the next
+    /// one is served; 0 waits without end.
+    #[arg(long, value_name = "S", default_value_t = 30.0, value_parser = idle_seconds)]
+    pub(crate) idle: f64,
     /// Frames are marker positions, to which the model is fitted; it must have these markers at their positions on the
     /// person, like subject.osim of `ambulo forces`.
     #[arg(long)]
@@ -73,6 +78,12 @@ pub(crate) struct StreamArgs {
     pub(crate) quiet: bool,
 }
 
+/// A time without frames: at most a day.
+fn idle_seconds(text: &str) -> Result<f64, String> {
+    let expected = "expected a number of seconds from 0 to 86400";
+    zero_or_more_seconds(text).ok().filter(|seconds| *seconds <= 86_400.0).ok_or_else(|| expected.to_owned())
+}
+
 /// Form of frames and results.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StreamFormat {
@@ -95,6 +106,11 @@ pub(crate) enum MarkerUnit {
 }
 
 impl MarkerUnit {
+    /// Its name in messages.
+    pub(crate) fn word(self) -> &'static str {
+        word(&self)
+    }
+
     /// Metres in the unit.
     pub(crate) fn metres(self) -> f64 {
         match self {

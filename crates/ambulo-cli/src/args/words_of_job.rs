@@ -20,6 +20,7 @@ pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {
     words.value("--heading", job.sensors.heading.as_ref());
     words.value("--earth", job.sensors.earth);
     words.path("--static", job.standing.as_ref());
+    words.value("--subject", job.subject.as_ref());
     words.path("--grf", job.forces.table.as_ref());
     words.path("--loads", job.forces.loads.as_ref());
     words.value("--right", job.forces.right.as_ref());

@@ -1,8 +1,8 @@
 //! Prints the outcome of `forces`, `walk` and `demo`.
 
 use super::{
-    comparison, consistency, counted_reasons, print_findings, print_line, print_verdict, print_warnings, quoted,
-    reasons_shown, subject,
+    comparison, consistency, counted_reasons, print_findings, print_json, print_line, print_verdict, print_warnings,
+    quoted, reasons_shown, subject,
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
@@ -23,7 +23,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
     }
     if print.json {
         print_findings(&summary.findings);
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     if print.verbose {
         print_findings(&summary.findings);
@@ -94,8 +94,9 @@ fn outline(summary: &Summary) -> Result<()> {
         print_line(&format!("  walk      {}", parts.collect::<Vec<_>>().join(", ")))?;
     }
     let [from, to] = summary.window_s;
-    let Summary { frames, rate_hz, ground: Ground { source, .. }, .. } = summary;
-    print_line(&format!("  forces    {source}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz"))?;
+    let Summary { frames, rate_hz, ground, .. } = summary;
+    print_line(&format!("  forces    {}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz", ground.source))?;
+    print_shares(ground)?;
     if let Some(comparison) = &summary.comparison {
         comparison::print_vertical(comparison)?;
     }
@@ -115,9 +116,12 @@ fn outline(summary: &Summary) -> Result<()> {
 
 /// How far the motion was changed until feet on the ground supplied its external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
-    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, .. } = tracking;
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
+    let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
+    let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg and {root_rms_mm:.1} mm rms, residual at most {:.3} \
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most \
+         {:.3} \
          % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
@@ -230,9 +234,15 @@ fn print_ground(summary: &Summary) -> Result<()> {
         return print_line(&format!("  filter    motion {motion}\n  ground    none"));
     }
     print_line(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
-    let rule = rule.as_ref().filter(|_| source == GroundOrigin::Predicted);
+    let rule = rule.as_ref().filter(|_| matches!(source, GroundOrigin::Predicted | GroundOrigin::Mixed));
     let rule = rule.map_or(String::new(), |rule| format!(", {rule}"));
-    print_line(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
+    print_line(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))?;
+    print_shares(&summary.ground)
+}
+
+/// Of which share of each leg's loaded time the load was measured, if it was not all of it.
+fn print_shares(ground: &Ground) -> Result<()> {
+    ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }
 
 /// Prints which checks of a prediction passed, with the values of those that failed.

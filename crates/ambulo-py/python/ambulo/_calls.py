@@ -75,6 +75,7 @@ def forces(
     refit: bool = False,
     ground: bool = True,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
@@ -121,7 +122,7 @@ def forces(
     right, left : str, optional
         Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     plates : mapping of int to str, optional
-        Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+        Foot of each force plate, counted from 1, and corrections of its signs and directions: ``{1: "r", 2: "off", 3: "flip-y"}``.
     trial : int or str, optional
         The trial of a ``.b3d``: its number, counted from 1, or its name. All trials take one call each.
     smpl : str, path-like or bytes, optional
@@ -142,6 +143,8 @@ def forces(
         False computes without ground forces.
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -224,6 +227,7 @@ def forces(
         "track": track,
         "refit": refit,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,
@@ -282,6 +286,7 @@ def calibrate_person(
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     plates: Mapping[int, str] | None = None,
@@ -307,6 +312,8 @@ def calibrate_person(
         Stature [m].
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -347,6 +354,7 @@ def calibrate_person(
         "mass": mass,
         "height": height,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,

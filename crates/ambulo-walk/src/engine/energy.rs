@@ -33,8 +33,10 @@ const LIFTED_M: f64 = 1e-3;
 /// Watches that the energy of a scene does not rise above that of its start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EnergyWatch {
+    /// Energies and time at which it began [J, s].
     start: f64,
     kinetic: f64,
+    start_s: f64,
     least: f64,
 }
 
@@ -43,7 +45,12 @@ impl EnergyWatch {
     pub(crate) fn new(world: &World, state: &WorldState) -> Option<EnergyWatch> {
         let energy = energy(world, state);
         let least = LIFTED_M * world.mass() * world.gravity.norm();
-        is_passive(world).then_some(EnergyWatch { start: energy.total(), kinetic: energy.kinetic, least })
+        is_passive(world).then_some(EnergyWatch {
+            start: energy.total(),
+            kinetic: energy.kinetic,
+            start_s: state.time_s,
+            least,
+        })
     }
 
     /// Returns whether the energy has risen, and reports it.
@@ -54,8 +61,9 @@ impl EnergyWatch {
         let fallen = (self.start - now.gravity - now.springs).max(0.0);
         let rises = rise > (RISE * fallen.max(self.kinetic)).max(self.least);
         if rises {
+            let start = if self.start_s > 0.0 { format!("{:.3} s", self.start_s) } else { "the start".to_owned() };
             let message = format!(
-                "without a drive, the energy rose by {rise:.4} J above its {:.4} J at the start, at {:.3} s",
+                "without a drive, the energy rose by {rise:.4} J above its {:.4} J at {start}, at {:.3} s",
                 self.start, state.time_s
             );
             findings.report(Code::EnergyRose, message);

@@ -11,6 +11,7 @@
 //! displacements), 3.2 (drives), 3.3 (contact). Time stepping by impulses after Moreau (unverified).
 
 use super::assemble::{Assembly, Span, Yielding, twist};
+use super::contradiction::report_unsatisfied;
 use super::forces::ContactForce;
 use super::joint::advance;
 use super::projection::still_closing;
@@ -25,8 +26,6 @@ use crate::spatial::STANDARD_GRAVITY;
 /// A force beyond this many times the total weight is a sign of contradictory constraints: drives without a limit give
 /// way there, and no force is larger where the solver fails.
 const UNREASONABLE_WEIGHTS: f64 = 1000.0;
-/// A residual above this means contradictory constraints; below, slow convergence, as in stretched loops.
-const CONTRADICTION: f64 = 1e-6;
 
 /// Advances the state by `h`.
 pub(super) fn impulse_step(
@@ -229,36 +228,6 @@ impl StepWorkspace {
                 findings.report(Code::DriveGaveWay, message);
             }
         }
-        let convergence = &self.equations.solution.convergence;
-        let contradicts = convergence.residual > CONTRADICTION || convergence.residual.is_nan();
-        if let (true, Some(row)) = (contradicts, convergence.worst) {
-            let name = self.row_name(world, row);
-            findings.report(
-                Code::SolverNotConverged,
-                format!("the constraints contradict each other; the one violated most is {name}"),
-            );
-        }
-    }
-
-    /// Description of a row for messages.
-    pub(crate) fn row_name(&self, world: &World, row: usize) -> String {
-        let groups = &self.equations.assembly.graph.groups;
-        let Some(group) = groups.iter().position(|g| g.rows.contains(&row)) else { return format!("row {row}") };
-        let coordinate = |joint: usize, k: usize| {
-            let joint = &world.joints[joint];
-            format!("`{}` ({})", joint.name, joint.kind.coordinate_names()[k])
-        };
-        match self.equations.assembly.keys[group] {
-            RowKey::Closure(closure) => format!("the closure `{}`", world.closures[closure].name),
-            RowKey::Drive(j, k) => format!("the drive of {}", coordinate(j, k)),
-            RowKey::Motor(j, k) => format!("the motor of {}", coordinate(j, k)),
-            RowKey::Friction(j, k) => format!("the friction of {}", coordinate(j, k)),
-            RowKey::LowerLimit(j, k) => format!("the lower limit of {}", coordinate(j, k)),
-            RowKey::UpperLimit(j, k) => format!("the upper limit of {}", coordinate(j, k)),
-            RowKey::Contact(a, b, _) | RowKey::SoftFriction(a, b, _) => {
-                let name = |surface: usize| world.owner_name(world.surfaces[surface].owner);
-                format!("the contact of `{}` with `{}`", name(a), name(b))
-            }
-        }
+        report_unsatisfied(world, &self.equations, state.time_s, findings);
     }
 }

@@ -62,6 +62,7 @@ pub(crate) mod state;
 pub(crate) mod world;
 
 mod assemble;
+mod contradiction;
 pub(crate) mod forces;
 mod impact;
 mod impulse;
@@ -71,7 +72,7 @@ mod smooth;
 pub(crate) mod soles;
 pub(crate) mod start;
 pub(crate) mod step;
-mod touch;
+pub(crate) mod touch;
 pub(crate) mod workspace;
 
 pub use check::WorldError;

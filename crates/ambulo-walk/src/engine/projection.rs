@@ -300,7 +300,7 @@ impl StepWorkspace {
             if !self.open(world, state) {
                 break;
             }
-            let Equations { assembly, solution } = &mut self.closing.equations;
+            let Equations { assembly, solution, .. } = &mut self.closing.equations;
             assembly.fill(world, state, &self.prescribed, &Vec::new(), Span::step(h));
             let graph = &mut assembly.graph;
             graph.wrenches.fill(Six::zeros());

@@ -268,6 +268,7 @@ impl Tree {
         self.fill(world, here, &motion, &mut slope, &mut stage.assembly);
         stage.solution.lambda.clear();
         solve_graph(&stage.assembly.graph, settings, solver, &mut stage.solution)?;
+        stage.note(world);
         let mut next = stage.assembly.slots.iter().zip(&stage.solution.coordinates);
         // Slots were filled body by body; branches are in another order.
         let mut accelerations = std::collections::BTreeMap::new();
@@ -341,6 +342,8 @@ impl Tree {
         graph.rows.iter_mut().for_each(|row| row.target = 0.0);
         stage.solution.lambda.clear();
         solve_graph(graph, settings, solver, &mut stage.solution)?;
+        stage.note(world);
+        let graph = &mut stage.assembly.graph;
         for (t, motion) in state.twists.iter_mut().zip(&stage.solution.motions) {
             *t = twist(motion);
         }

@@ -5,6 +5,7 @@
 //! surfaces meet within its step, it finds the instant, computes the impact there and continues. A step in which they
 //! stay in contact is a step of impulses.
 
+use super::contradiction::report_work;
 use super::impact::impact;
 use super::impulse::impulse_step;
 use super::joint::JointKind;
@@ -12,10 +13,12 @@ use super::midpoint::midpoint_step;
 use super::smooth::{self, runge_kutta};
 use super::state::WorldState;
 use super::touch::{ObstaclePoses, obstacle_motion};
-use super::workspace::{Integrator, SmoothWorkspace, StepKind, StepSettings, StepWorkspace};
-use super::world::{ContactLaw, JointCoordinate, World};
+use super::workspace::{
+    ContactWorkspace, Equations, Integrator, SmoothWorkspace, StepKind, StepSettings, StepWorkspace,
+};
+use super::world::{ContactLaw, ImpactLaw, JointCoordinate, Owner, Surface, World};
 use crate::dynamics::{Convergence, LinkError, SolverSettings};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::spatial::Twist;
 
 /// Surfaces nearer than this touch [m]; also the accuracy of an instant of contact.
@@ -24,6 +27,13 @@ const TOUCHING_M: f64 = 1e-10;
 const MOST_IMPACTS: usize = 8;
 /// Bisections of the instant of contact: a step of 1 ms comes down to 1e-18 s.
 const BISECTIONS: usize = 50;
+
+/// Iterations of the solver in the smooth parts of one step, and in the search for an instant of contact; the rest of
+/// the step is then one of impulses. An impact is found by 52 trials of four stages, which take 2 to 10 iterations
+/// each.
+const MOST_ITERATIONS: usize = 8_000;
+/// Overlap at which an instant of contact ends a part of a step of impulses [m].
+const OVERLAP_M: f64 = 1e-9;
 
 /// If a body turns further than this in a smooth step [rad], the step is divided, since its error grows with the fifth
 /// power of the angle.
@@ -47,7 +57,7 @@ pub fn step(
 ) -> Result<Convergence, LinkError> {
     w.impacts.all.clear();
     match settings.integrator {
-        Integrator::Impulse => impulse_step(world, state, settings.step_s, settings, w, findings),
+        Integrator::Impulse => impulse_parts(world, state, settings, w, findings),
         Integrator::Midpoint => midpoint_step(world, state, settings, w, findings),
         Integrator::RungeKutta => smooth_step(world, state, settings, w, findings),
     }
@@ -69,6 +79,24 @@ pub fn accelerations(
     smooth::accelerations(world, state, solver, &mut w.solver, &mut w.equations)
 }
 
+/// A step of impulses. It is divided at the instant at which a fast body meets a surface that it would have passed at
+/// the end of the step: bodies that rebound do so in the step in which they overlap.
+fn impulse_parts(
+    world: &World,
+    state: &mut WorldState,
+    settings: &StepSettings,
+    w: &mut StepWorkspace,
+    findings: &mut Findings,
+) -> Result<Convergence, LinkError> {
+    let mut left = settings.step_s;
+    for _ in 0..MOST_IMPACTS {
+        let Some(until) = w.contact.passing(world, state, left) else { break };
+        impulse_step(world, state, until, settings, w, findings)?;
+        left -= until;
+    }
+    impulse_step(world, state, left, settings, w, findings)
+}
+
 /// A Runge-Kutta step: smooth parts and the impacts between them.
 fn smooth_step(
     world: &World,
@@ -79,8 +107,9 @@ fn smooth_step(
 ) -> Result<Convergence, LinkError> {
     let mut left = settings.step_s;
     w.kind = StepKind::Smooth;
+    w.smooth.iterations = 0;
     for _ in 0..MOST_IMPACTS {
-        if !smooth_here(world, state, w, left) {
+        if w.smooth.iterations > MOST_ITERATIONS || !smooth_here(world, state, w, left) {
             break;
         }
         let mut end = state.clone();
@@ -90,6 +119,7 @@ fn smooth_step(
         }
         if w.least_gap(world, &end) >= 0.0 {
             *state = end;
+            w.report_contradictions(findings);
             return Ok(w.equations.solution.convergence);
         }
         if gives(world) {
@@ -97,6 +127,9 @@ fn smooth_step(
         }
         let (mut before, mut after) = (0.0, left);
         for _ in 0..BISECTIONS {
+            if w.smooth.iterations > MOST_ITERATIONS {
+                break;
+            }
             let middle = 0.5 * (before + after);
             end.clone_from(state);
             w.runge_kutta(world, &mut end, middle, settings)?;
@@ -104,9 +137,17 @@ fn smooth_step(
         }
         end.clone_from(state);
         w.runge_kutta(world, &mut end, before, settings)?;
+        w.report_contradictions(findings);
         *state = end;
         left -= before;
         impact(world, state, settings, w, findings)?;
+    }
+    if w.smooth.iterations > MOST_ITERATIONS {
+        let message = format!(
+            "at {:.4} s the smooth parts of a step used up its work; the rest of it is a step of impulses",
+            state.time_s
+        );
+        report_work(message, findings);
     }
     if left <= 0.0 {
         return Ok(w.equations.solution.convergence);
@@ -145,19 +186,36 @@ impl StepWorkspace {
     ) -> Result<(), LinkError> {
         self.step_s = 1.0; // multipliers of accelerations are forces
         self.contact.touch.clear();
+        let SmoothWorkspace { later, first_of_part, .. } = &mut self.smooth;
+        for equations in [&mut self.equations, later, first_of_part] {
+            (equations.iterations, equations.contradiction) = (0, None);
+        }
         let fastest = state.twists.iter().map(|t| t.angular.norm()).fold(0.0, f64::max);
         let parts = (fastest * h / MOST_TURN).ceil().clamp(1.0, MOST_PARTS);
         for part in 0..parts as usize {
             // The forces of the step are those of its first part.
-            let SmoothWorkspace { later, first_of_part } = &mut self.smooth;
+            let SmoothWorkspace { later, first_of_part, .. } = &mut self.smooth;
             let first = if part == 0 { &mut self.equations } else { first_of_part };
             runge_kutta(world, state, h / parts, &settings.solver, &mut self.solver, first, later)?;
         }
+        self.smooth.iterations += self.stages().map(|equations| equations.iterations).sum::<usize>();
         if settings.projection {
             self.prescribed.fill(world, state.time_s);
             self.close(world, state, settings)?;
         }
         Ok(())
+    }
+
+    /// The equations of the stages of a smooth step.
+    fn stages(&self) -> impl Iterator<Item = &Equations> {
+        [&self.equations, &self.smooth.first_of_part, &self.smooth.later].into_iter()
+    }
+
+    /// Reports what the stages of a smooth step that was made violate.
+    fn report_contradictions(&self, findings: &mut Findings) {
+        for message in self.stages().filter_map(|equations| equations.contradiction.clone()) {
+            findings.report(Code::SolverNotConverged, message);
+        }
     }
 
     /// Whether a coordinate has reached a limit, or a drive needs more than it may have.
@@ -190,5 +248,27 @@ impl StepWorkspace {
         let least = probe.touches.iter().map(|t| t.at.gap).fold(f64::INFINITY, f64::min);
         probe.clear();
         least
+    }
+}
+
+impl ContactWorkspace {
+    /// The time until a fast body that rebounds meets a surface that it would have passed after `h` [s]: the first such
+    /// instant, with an overlap that makes it an impact.
+    fn passing(&mut self, world: &World, state: &WorldState, h: f64) -> Option<f64> {
+        let is_fast = |surface: &Surface| match surface.owner {
+            Owner::Body(body) => state.twists[body].linear.norm() * h > surface.shape.half_size(),
+            Owner::Obstacle(_) => false,
+        };
+        let rebounds = world.impact == ImpactLaw::Coulomb && world.materials.iter().any(|m| m.restitution > 0.0);
+        if !rebounds || !world.surfaces.iter().any(is_fast) {
+            return None;
+        }
+        obstacle_motion(world, state.time_s, h, &mut self.obstacles);
+        self.touch.detect(world, state, &self.obstacles, h);
+        let until = self.touch.touches.iter().filter_map(|touch| {
+            let speed = touch.passing_speed(world, state, &self.obstacles, h)?;
+            Some((touch.at.gap + OVERLAP_M) / speed).filter(|until| *until < h)
+        });
+        until.min_by(f64::total_cmp)
     }
 }

@@ -27,6 +27,9 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
+/// An approach faster than gravity gives within so many steps is an impact.
+const RESTING_STEPS: f64 = 4.0;
+
 /// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of
 /// one body against each other. Position projection removes such gaps.
 const CLOSED_M: f64 = 1e-10;
@@ -54,6 +57,27 @@ pub(crate) struct Touch {
     pub(crate) known: bool,
     /// For [`ImpactLaw::Sticking`]: whether this is the point that loses all its velocity.
     pub(crate) sticks: bool,
+}
+
+impl Touch {
+    /// Speed of approach of surfaces that are apart, will rebound, and would overlap after `h` by more than half of
+    /// both [m/s]: they would then be taken for surfaces that leave on the other side.
+    pub(super) fn passing_speed(
+        &self,
+        world: &World,
+        state: &WorldState,
+        obstacles: &ObstaclePoses,
+        h: f64,
+    ) -> Option<f64> {
+        let [a, b] = [self.surfaces.0, self.surfaces.1].map(|surface| &world.surfaces[surface]);
+        let material = combined(&world.materials[a.material], &world.materials[b.material]);
+        let speed = -parting_speed(self, world, state, obstacles);
+        let bounces = material.law == ContactLaw::Rigid
+            && material.restitution > 0.0
+            && speed > RESTING_STEPS * h * world.gravity.norm();
+        let passes = speed * h - self.at.gap > a.shape.half_size() + b.shape.half_size();
+        (bounces && passes && self.at.gap > 0.0).then_some(speed)
+    }
 }
 
 /// Rows of a contact point in the graph.
@@ -297,8 +321,7 @@ impl RowWriter<'_> {
     /// this step. `u` is the normal velocity at the start of the step.
     fn aim(&self, touch: &mut Touch, row: &mut Constraint, u: f64, restitution: f64) -> bool {
         let (gap, h) = (touch.at.gap, self.span.h);
-        // An approach faster than gravity gives within a few steps is an impact.
-        let resting = 4.0 * h * self.world.gravity.norm();
+        let resting = RESTING_STEPS * h * self.world.gravity.norm();
         let rebounds = restitution > 0.0 && self.world.impact == ImpactLaw::Coulomb;
         let bounces = rebounds && u < -resting;
         if !self.span.halfway {
@@ -459,7 +482,7 @@ fn placed(owner: &Pose, surface: &Surface) -> Pose {
 }
 
 /// Whether two surfaces can be in contact: not two obstacles, not connected bodies, not an ignored pair.
-fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface) -> bool {
+pub(crate) fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface) -> bool {
     let closed = |x: usize, y: usize| {
         world
             .closures

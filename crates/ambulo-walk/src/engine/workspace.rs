@@ -73,6 +73,9 @@ pub(crate) enum StepKind {
 pub(crate) struct Equations {
     pub(crate) assembly: Assembly,
     pub(crate) solution: GraphSolution,
+    /// Of the stages of a Runge-Kutta step so far: iterations, and what the first one that failed violates.
+    pub(crate) iterations: usize,
+    pub(crate) contradiction: Option<String>,
 }
 
 /// Contact points of a step.
@@ -111,6 +114,8 @@ pub(crate) struct SmoothWorkspace {
     pub(crate) later: Equations,
     /// The first stage of a part of a step other than the first part, of which forces are read.
     pub(crate) first_of_part: Equations,
+    /// Iterations of the whole step, also of trials that were discarded.
+    pub(crate) iterations: usize,
 }
 
 /// Impacts within a step ([`super::impact`]).

@@ -2,6 +2,7 @@
 
 use super::acting::acting;
 use super::built_figure;
+use super::checks::SceneChecks;
 use super::closing::Closing;
 use super::closure::ClosureEntry;
 use super::coordinate::CoordinateEntry;
@@ -18,7 +19,6 @@ use super::sources::{InputFiles, ReadFile};
 use super::starting::start_moving;
 use super::surfaces::{material, obstacle, solid};
 use super::{Place, SceneError};
-use crate::engine::energy::EnergyWatch;
 use crate::engine::start::start;
 use crate::engine::state::WorldState;
 use crate::engine::workspace::{Integrator, StepSettings, StepWorkspace};
@@ -57,8 +57,7 @@ pub struct Scene {
     /// Recorders of the walking figures.
     pub(super) recorders: Vec<Recorder>,
     pub(super) workspace: StepWorkspace,
-    /// Watches the energy of a scene without drives, until it has risen.
-    pub(super) watch: Option<EnergyWatch>,
+    pub(super) checks: SceneChecks,
     /// Poses at the beginning of the last step, to which its forces belong; only if there are figures.
     pub(super) before: Vec<Pose>,
     /// Whether the velocities at the start are those of half a step earlier.
@@ -134,11 +133,11 @@ impl Scene {
         let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
         start(&world, &mut state, &settings.solver, findings).map_err(trees)?;
         let starts_early = start_half_a_step_earlier(&mut state, &walkers, &settings);
-        let watch = EnergyWatch::new(&world, &state).filter(|_| file.events.is_empty());
+        let checks = SceneChecks::new(&world, &state);
         Ok(Scene {
             settings,
             integrator_reason: file.integrator_reason,
-            watch,
+            checks,
             duration_s,
             output_rate_hz: file.output_rate_hz.min(1.0 / changes.step_s.unwrap_or(file.step_s)),
             outputs: file.outputs.clone(),

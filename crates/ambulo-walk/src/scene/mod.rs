@@ -10,6 +10,7 @@ mod body;
 mod build;
 mod built_entry;
 mod built_figure;
+mod checks;
 mod closing;
 mod closure;
 mod controlled;

@@ -1,6 +1,7 @@
 //! Simulates a scene with its events, and passes frames to the caller.
 
 use super::build::Scene;
+use super::checks::open_m;
 use super::event::EventAction;
 use super::file::MOST_STEPS;
 use super::model_figure::PlacedFigure;
@@ -11,7 +12,7 @@ use crate::dynamics::{Convergence, LinkError, Workspace, project_wrenches};
 use crate::engine::energy::{Energy, energy};
 use crate::engine::figure_tree::{FigurePlace, FigureTree};
 use crate::engine::forces::{ContactForce, StepForces};
-use crate::engine::projection::{closure_errors, closure_frames, largest_joint_error};
+use crate::engine::projection::largest_joint_error;
 use crate::engine::row::{Row, StepTaken};
 use crate::engine::state::{RowKey, WorldState};
 use crate::engine::step::step;
@@ -219,6 +220,7 @@ impl Scene {
         if self.is_seen() {
             self.show_end(impacts, &mut visit)?;
         }
+        self.checks.end(&self.world, &self.state, findings);
         Ok(statistics)
     }
 
@@ -325,9 +327,7 @@ impl Scene {
                 recorder.after_step(&self.world, &self.before, &self.state, &self.workspace, step_s, solved);
             }
         }
-        if self.watch.as_mut().is_some_and(|watch| watch.rises(&self.world, &self.state, findings)) {
-            self.watch = None;
-        }
+        self.checks.look(&self.world, &self.state, self.settings.step_s, findings);
         let finite = |body: usize| {
             let (pose, twist) = (&self.state.poses[body], &self.state.twists[body]);
             let numbers = pose.translation.iter().chain(pose.rotation.iter());
@@ -373,14 +373,19 @@ impl Scene {
         while let Some(event) = self.events.get(self.fired).filter(|event| event.time_s <= now) {
             let change = event.change;
             self.fired += 1;
+            let mut added = None;
             match change {
-                EventAction::AddClosure(closure) => self.close(closure),
+                EventAction::AddClosure(closure) => {
+                    self.close(closure);
+                    added = Some(closure);
+                }
                 EventAction::RemoveClosure(closure) => {
                     self.world.closures[closure].active = false;
                     self.state.guess.remove(&RowKey::Closure(closure));
                 }
                 EventAction::RemoveJoint(joint) => self.remove_joint(joint),
             }
+            self.checks.changed(&self.world, &self.state, added, self.settings.step_s);
         }
     }
 
@@ -452,10 +457,7 @@ impl Scene {
     /// Distance of the points of a closure along its constrained directions [m].
     #[must_use]
     pub fn closure_gap(&self, closure: usize) -> f64 {
-        let frames = closure_frames(&self.world, &self.state, closure);
-        let turns = self.world.closures[closure].kind.constrained(&frames).turns().count();
-        let gaps = closure_errors(&self.world, &self.state, closure).skip(turns);
-        gaps.map(|gap| gap * gap).sum::<f64>().sqrt()
+        open_m(&self.world, &self.state, closure)
     }
 
     /// Largest position error of any joint or active closure [m].

@@ -1,6 +1,7 @@
 //! Saves and resumes the state of a scene bit for bit.
 
 use super::build::Scene;
+use super::checks::SceneChecks;
 use super::event::{EventAction, EventEntry};
 use super::recorder::Recorder;
 use super::run::RunError;
@@ -95,6 +96,9 @@ impl Scene {
         self.state.twists = saved.twists.iter().map(twist).collect();
         self.state.coordinates.clone_from(&saved.coordinates);
         self.state.guess = saved.impulses.iter().copied().collect();
+        if self.fired > 0 {
+            self.checks = SceneChecks::new(&self.world, &self.state);
+        }
         Ok(())
     }
 }

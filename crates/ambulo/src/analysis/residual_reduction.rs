@@ -6,7 +6,7 @@ use crate::dynamics::residual_reduction::{
     ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };
 use crate::dynamics::{Workspace, inverse_with_residual};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, TimeGrid, Window};
@@ -35,7 +35,8 @@ impl Adjustable {
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
 /// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented
-/// window. Returns the analysis of the changed motion and body, and the changes.
+/// window. Returns the analysis of the changed motion and body, and the changes; the analysis as it was where the
+/// reduction did not converge, because such a motion is neither recorded nor consistent.
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
@@ -45,7 +46,7 @@ pub(crate) fn reduce_residual(
     settings: &AnalysisSettings,
     adjustable: Adjustable,
     findings: &mut Findings,
-) -> Result<(Analysis, ReducedMotion), ResidualReductionError> {
+) -> Result<(Analysis, Option<ReducedMotion>), ResidualReductionError> {
     let loads = analysis.ground.loads();
     let body = adjustable == Adjustable::MotionAndBody;
     let reduction = ResidualReductionSettings {
@@ -54,7 +55,17 @@ pub(crate) fn reduce_residual(
         adjust_trunk_center: body,
         ..ResidualReductionSettings::default()
     };
-    let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, findings)?;
+    let mut found = Findings::default();
+    let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, &mut found)?;
+    if !done.converged {
+        let message = format!(
+            "residual reduction did not converge in {} iterations; the motion was not changed",
+            done.iterations
+        );
+        findings.report(Code::ConsistencyNotSettled, message);
+        return Ok((analysis, None));
+    }
+    found.as_slice().iter().for_each(|finding| findings.add(finding.clone()));
     let [from, to] = done.window_s;
     let (first, frames) = analysis.trajectory.grid().inside(Window { from_s: Some(from), to_s: Some(to) });
     let forces = inverse_with_residual(&mut Workspace::new(&done.model), &done.trajectory, &loads);
@@ -65,7 +76,7 @@ pub(crate) fn reduce_residual(
     };
     let trajectory = done.trajectory.clone();
     let analysis = Analysis { trajectory, adjusted: true, forces, residual, mass, ..analysis };
-    Ok((analysis, done))
+    Ok((analysis, Some(done)))
 }
 
 /// The instrumented window (or the whole motion if it is unknown) without its ends, where the filters mix in unmeasured

@@ -113,6 +113,22 @@ impl BodyForces {
         }
     }
 
+    /// The sum of loads on the body of the first one, each times its weight in every frame.
+    #[must_use]
+    pub(crate) fn weighted_sum(parts: &[(&BodyForces, &[f64])], up: Vec3) -> BodyForces {
+        let scaled = |values: &[Vec3], weights: &[f64]| -> Vec<Vec3> {
+            values.iter().zip(weights).map(|(value, weight)| value * *weight).collect()
+        };
+        let wrenches: Vec<[Vec<Vec3>; 2]> =
+            parts.iter().map(|(part, weights)| [&part.force, &part.moment].map(|of| scaled(of, weights))).collect();
+        let sensors: Vec<SensorWrench<'_>> = wrenches
+            .iter()
+            .zip(parts)
+            .map(|([force, moment], (part, _))| (force.as_slice(), moment.as_slice(), part.surface_height.as_slice()))
+            .collect();
+        combine(parts[0].0.body, &sensors, up)
+    }
+
     fn load(&self) -> LoadSeries {
         let wrench = |(force, moment): (&Vec3, &Vec3)| Wrench { moment: *moment, force: *force };
         LoadSeries {

@@ -8,6 +8,7 @@ pub mod phases;
 pub mod plates;
 pub mod predict;
 pub(crate) mod refit;
+pub mod stances;
 pub mod stream;
 
 pub(crate) use load_sides::{FootPaths, LoadedSpan};

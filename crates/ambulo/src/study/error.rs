@@ -138,6 +138,8 @@ fn is_about_calibration(error: &MarkerTrialError) -> bool {
         MarkerTrialError::Calibration(CalibrationError::Build(_))
         | MarkerTrialError::Poses(_)
         | MarkerTrialError::PosesForModel { .. }
+        | MarkerTrialError::SeveralPeople { .. }
+        | MarkerTrialError::NoSuchPerson { .. }
         | MarkerTrialError::Fit(_)
         | MarkerTrialError::Stopped(_) => false,
         MarkerTrialError::Names(_) | MarkerTrialError::Calibration(_) | MarkerTrialError::Scaling(_) => true,

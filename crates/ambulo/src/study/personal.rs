@@ -2,6 +2,7 @@
 //! person.
 
 use super::outcome::{Outcome, PredictedGround};
+use super::quality::QualityState;
 use crate::analysis::activity::ActivityKind;
 use crate::analysis::{ComparedAnalyses, compared_stances};
 use crate::ground::predict::{ErrorSample, FittedParameters, OtherPerson, PersonalErrors, StanceErrors};
@@ -40,6 +41,22 @@ pub enum CalibrationError {
         /// Recognised activity.
         found: &'static str,
     },
+    /// Data that do not fit together.
+    #[error("the quality of the trial is bad ({reason}); expected a trial whose markers, force plates and mass agree")]
+    BadTrial {
+        /// Which one.
+        trial: usize,
+        /// The first reason of its quality.
+        reason: String,
+    },
+    /// Files that name different persons.
+    #[error(
+        "the file names another person (SUBJECTS:NAMES) than that of the first trial; expected trials of one person"
+    )]
+    OtherName {
+        /// The trial that differs from the first one.
+        trial: usize,
+    },
     /// Trials of different persons.
     #[error("{error}")]
     OtherPerson {
@@ -59,6 +76,8 @@ impl CalibrationError {
             CalibrationError::NoPlates { trial }
             | CalibrationError::NoStance { trial }
             | CalibrationError::NotWalking { trial, .. }
+            | CalibrationError::BadTrial { trial, .. }
+            | CalibrationError::OtherName { trial }
             | CalibrationError::OtherPerson { trial, .. } => Some(trial),
         }
     }
@@ -72,6 +91,7 @@ impl CalibrationError {
 pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, CalibrationError> {
     let mut samples: BySide<[Vec<ErrorSample>; 5]> = BySide { right: Default::default(), left: Default::default() };
     let mut stances = BySide { right: 0, left: 0 };
+    let mut deviations: BySide<Vec<[f64; 3]>> = BySide { right: Vec::new(), left: Vec::new() };
     let mut first: Option<PersonalErrors> = None;
     for (trial, outcome) in trials.iter().enumerate() {
         let PredictedGround { prediction, measured, coverage, .. } =
@@ -80,6 +100,10 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
             measured.as_ref().zip(coverage.as_ref()).ok_or(CalibrationError::NoPlates { trial })?;
         if outcome.activity.kind != ActivityKind::Walk {
             return Err(CalibrationError::NotWalking { trial, found: outcome.activity.kind.words() });
+        }
+        if outcome.quality.state == QualityState::Bad {
+            let reason = outcome.quality.reasons.first().map_or_else(String::new, |reason| reason.message.clone());
+            return Err(CalibrationError::BadTrial { trial, reason });
         }
         let (model, predicted) = (&outcome.body, &outcome.analysis);
         let compared = compared_stances(&ComparedAnalyses { model, predicted, prediction, measured }, coverage);
@@ -94,16 +118,39 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
             stances: BySide { right: 0, left: 0 },
             errors: BySide { right: StanceErrors::default(), left: StanceErrors::default() },
             estimator: FittedParameters::default().fingerprint(),
+            subject: outcome.subject,
+            excess: 0.0,
         });
+        if person.is_named_otherwise(outcome.subject) {
+            return Err(CalibrationError::OtherName { trial });
+        }
         person.check(model).map_err(|error| CalibrationError::OtherPerson { trial, error })?;
         let weight_n = measured.mass.kg * model.gravity().norm();
         for stance in compared.iter().filter(|stance| !stance.samples.is_empty()) {
             stances[stance.side] += 1;
+            deviations[stance.side]
+                .extend(stance.samples.iter().map(|sample| sample.deviation.map(|sd| sd / weight_n)));
             let errors = stance.errors(weight_n, stature.height_m);
             samples[stance.side].iter_mut().zip(errors).for_each(|(all, own)| all.extend(own));
         }
     }
     let person = first.ok_or(CalibrationError::NoTrial)?;
     let errors = BySide::from_fn(|side: Side| StanceErrors::through(&samples[side]));
-    Ok(PersonalErrors { stances, errors, ..person })
+    let excess = Side::BOTH.map(|side| excess(&errors[side], &deviations[side])).into_iter().fold(0.0, f64::max);
+    Ok(PersonalErrors { stances, errors, excess, ..person })
+}
+
+/// The largest mean error of a force as a multiple of its standard deviation [body weights], both root mean squares.
+fn excess(errors: &StanceErrors, deviations: &[[f64; 3]]) -> f64 {
+    let rms = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    };
+    // Curves are forward, up, outwards; deviations up, forward, to the right.
+    let of_axis = |(curve, axis): (usize, usize)| {
+        let deviation = rms(&mut deviations.iter().map(|of| of[axis]));
+        let mean_error = rms(&mut errors.force[curve].0.into_iter());
+        if deviation > 0.0 { mean_error / deviation } else { 0.0 }
+    };
+    [(0, 1), (1, 0), (2, 2)].into_iter().map(of_axis).fold(0.0, f64::max)
 }

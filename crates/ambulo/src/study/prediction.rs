@@ -1,14 +1,16 @@
 //! Ground forces from the motion alone, and their comparison with measured ones.
 
 use super::events::with_events_of_markers;
+use super::measured::StanceLoads;
 use super::observation::{Followed, Observation, Origin};
 use super::outcome::PredictedGround;
 use super::settings::Settings;
 use crate::analysis::{
-    self, Analysis, AnalysisError, CheckSettings, MassSource, PlateCoverage, PredictedAnalysis, PredictionInput,
-    Progress, Stage, predict_and_analyse, weighed_standing, weighed_within,
+    self, Analysis, AnalysisError, CheckSettings, ComparedAnalyses, MassSource, PlateCoverage, PredictedAnalysis,
+    PredictionInput, Progress, Stage, compared_stances, predict_and_analyse, weighed_standing, weighed_within,
 };
 use crate::findings::{Code, Findings};
+use crate::ground::predict::PersonalErrors;
 use crate::motion::{Event, Motion};
 
 /// A shorter motion has no whole cycle [s].
@@ -20,6 +22,10 @@ pub(super) struct Found {
     pub(super) prediction: Option<PredictedGround>,
     /// Foot strikes and foot offs that plates measured.
     pub(super) measured_events: Vec<Event>,
+    /// The stances of measured forces.
+    pub(super) loads: Option<StanceLoads>,
+    /// With the time in which nothing is missing.
+    pub(super) processing: analysis::AnalysisSettings,
 }
 
 /// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
@@ -53,6 +59,10 @@ pub(super) fn predicted(
     let checks = predicted.checks(&check, findings);
     progress.end(Stage::Checks)?;
     let agreement = coverage.as_ref().and_then(|coverage| predicted.agreement(model, coverage));
+    if let Some(person) = &settings.prediction.person {
+        let found = AppliedCalibration { person, observation, predicted: &predicted, coverage: coverage.as_ref() };
+        found.report(findings);
+    }
     if agreement.is_none() && predicted.measured.is_some() {
         findings.report(
             Code::ComparisonNone,
@@ -73,7 +83,66 @@ pub(super) fn predicted(
     report_weak_evidence(origin, recorded_s, findings);
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
     let prediction = PredictedGround { prediction, checks, measured, coverage, agreement, tracked: None };
-    Ok(Found { analysis, prediction: Some(prediction), measured_events })
+    Ok(Found { analysis, prediction: Some(prediction), measured_events, loads: None, processing })
+}
+
+/// A calibration of the person that was applied to a prediction.
+struct AppliedCalibration<'a> {
+    person: &'a PersonalErrors,
+    observation: &'a Observation,
+    predicted: &'a PredictedAnalysis,
+    coverage: Option<&'a PlateCoverage>,
+}
+
+/// A calibration makes a trial worse if its vertical errors grow by more than this share; less is chance.
+const WORSE: f64 = 1.1;
+
+impl AppliedCalibration<'_> {
+    /// Reports a calibration of another person, one with unusual errors, and one that force plates contradict.
+    fn report(&self, findings: &mut Findings) {
+        if self.person.is_named_otherwise(self.observation.origin.subject()) {
+            let message = "the calibration of the predicted forces was made from files that name another person \
+                (SUBJECTS:NAMES) than that of the recording; it was used. hint: calibrate with trials of this person";
+            findings.report(Code::PredictionOtherPerson, message);
+        }
+        if self.person.is_unusual() {
+            let message = format!(
+                "the calibration changes the prediction by up to {:.1} of its standard deviations; people differ by \
+                 at most 3: its trials may be wrong",
+                self.person.excess
+            );
+            findings.report(Code::PredictionCalibrationUnusual, message);
+        }
+        if let Some([with, without]) = self.errors_bw().filter(|[with, without]| *with > WORSE * *without) {
+            let message = format!(
+                "on the force plates of this recording the vertical error is {:.1} % of body weight with the \
+                 calibration and {:.1} % without it. hint: leave the calibration out, or calibrate with trials of this \
+                 person and this laboratory",
+                100.0 * with,
+                100.0 * without
+            );
+            findings.report(Code::PredictionCalibrationWorse, message);
+        }
+    }
+
+    /// Root mean square of the vertical error on plates with the calibration, and without what it added [body weights].
+    fn errors_bw(&self) -> Option<[f64; 2]> {
+        let (measured, coverage) = (self.predicted.measured.as_ref()?, self.coverage?);
+        let model = &self.observation.model;
+        let PredictedAnalysis { analysis, prediction, .. } = self.predicted;
+        let compared = ComparedAnalyses { model, predicted: analysis, prediction, measured };
+        let weight_n = measured.mass.kg * model.gravity().norm();
+        let (mut squares, mut count) = ([0.0; 2], 0.0);
+        for stance in compared_stances(&compared, coverage) {
+            for sample in &stance.samples {
+                let with = (sample.measured[0] - sample.predicted[0]) / weight_n;
+                let without = with + self.person.force(stance.side, sample.detected_phase)[1];
+                squares = [squares[0] + with * with, squares[1] + without * without];
+                count += 1.0;
+            }
+        }
+        (count > 0.0).then(|| squares.map(|square| (square / count).sqrt()))
+    }
 }
 
 /// Reports missing evidence that makes a prediction unreliable.
@@ -112,7 +181,7 @@ fn completed(predicted: PredictedAnalysis, observation: &Observation) -> (Predic
 /// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
 pub(super) fn with_markers(analysis: Analysis, observation: &Observation) -> (Analysis, Vec<Event>) {
     let Observation { model, origin, .. } = observation;
-    let Some(Followed { body, listed }) = origin.followed() else { return (analysis, Vec::new()) };
+    let Some(Followed { body, listed, .. }) = origin.followed() else { return (analysis, Vec::new()) };
     let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);
     if let Some(window) = origin.instrumented() {
         analysis = weighed_within(analysis, model, window);

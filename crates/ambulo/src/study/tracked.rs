@@ -12,6 +12,8 @@ use crate::optimal::TrackSettings;
 const SMALL_RESIDUAL: f64 = 0.005;
 /// Root mean square of the changes of rotations that is reported [rad].
 const LARGE_CHANGE_RAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Largest change of one rotation that is not reported [rad]: beyond the limit at which tracking resists.
+const LARGEST_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Replaces predicted forces and the motion by the results of tracking.
 pub(super) fn tracked(
@@ -20,7 +22,9 @@ pub(super) fn tracked(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Found, StudyError> {
-    let Found { analysis, prediction: Some(mut ground), measured_events } = found else { return Ok(found) };
+    let Found { analysis, prediction: Some(mut ground), measured_events, loads, processing } = found else {
+        return Ok(found);
+    };
     let Observation { model, person, .. } = observation;
     let PredictedGround { prediction, measured, coverage, .. } = &ground;
     let (analysis, motion) = track(model, &analysis, prediction, &person.soles, &TrackSettings::default())?;
@@ -30,13 +34,14 @@ pub(super) fn tracked(
     let tracked = TrackedGround {
         residual: motion.residual,
         moved: motion.moved,
+        turned: motion.turned,
         steps: motion.solution.progress.iter().map(|stage| stage.steps).sum(),
         predicted: ground.agreement.take(),
     };
     report(&tracked, findings);
     (ground.agreement, ground.tracked) = (compared, Some(tracked));
     progress.end(Stage::Tracking)?;
-    Ok(Found { analysis, prediction: Some(ground), measured_events })
+    Ok(Found { analysis, prediction: Some(ground), measured_events, loads, processing })
 }
 
 fn report(tracked: &TrackedGround, findings: &mut Findings) {
@@ -51,10 +56,14 @@ fn report(tracked: &TrackedGround, findings: &mut Findings) {
         findings.report(Code::TrackingResidualLeft, message);
     }
     let [turned, _] = tracked.moved;
-    if turned > LARGE_CHANGE_RAD {
+    let largest = tracked.turned.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((name, most)) = largest else { return };
+    if turned > LARGE_CHANGE_RAD || *most > LARGEST_TURN_RAD {
         let message = format!(
-            "tracking changed the rotations by {:.1} degrees (rms), more than the error of a recorded motion",
-            turned.to_degrees()
+            "tracking changed the rotations by {:.1} degrees (rms), `{name}` by up to {:.0}; the error of a recorded \
+             motion is less",
+            turned.to_degrees(),
+            most.to_degrees()
         );
         findings.report(Code::TrackingLargeChange, message);
     }

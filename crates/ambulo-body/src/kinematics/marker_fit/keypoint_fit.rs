@@ -54,7 +54,6 @@ pub fn fit_keypoints(
     keypoints.report_noise(findings);
     let Keypoints { observed, smooth, mut report } = keypoints;
     let mut problem = FitProblem::new(model, &smooth, settings, findings)?;
-    smoothing::check(problem.frames(), problem.tree.unknowns())?;
     let number = |path: &Cow<'_, MarkerPath>| smooth.markers.iter().position(|marker| marker.name == path.name);
     let numbers: Vec<usize> = problem.paths.iter().filter_map(number).collect();
     let mut frames = Frames::new(&problem);

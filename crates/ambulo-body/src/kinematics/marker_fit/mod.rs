@@ -136,9 +136,6 @@ fn fitted(
     findings: &mut Findings,
 ) -> Result<report::Fitted, FitError> {
     let mut problem = FitProblem::new(model, markers, settings, findings)?;
-    if let FitMethod::Together(_) = settings.method {
-        smoothing::check(problem.frames(), problem.tree.unknowns())?;
-    }
     let mut frames = Frames::new(&problem);
     let most = (0..frames.count()).map(|frame| frames.used_in(frame)).max().unwrap_or(0);
     if most < FEWEST {

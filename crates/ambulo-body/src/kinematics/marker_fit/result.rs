@@ -112,17 +112,4 @@ pub enum FitError {
         /// Number of frames.
         expected: usize,
     },
-    /// A fit of all frames together would need too much memory.
-    #[error(
-        "{frames} frames of {unknowns} coordinates are too many for a fit of all frames together; expected at most \
-         {most} frames. hint: use a shorter part of the recording, or fit frame by frame"
-    )]
-    TooLong {
-        /// Number of frames.
-        frames: usize,
-        /// Coordinates per frame.
-        unknowns: usize,
-        /// Maximum number of frames.
-        most: usize,
-    },
 }

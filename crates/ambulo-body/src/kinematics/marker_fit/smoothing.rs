@@ -11,23 +11,31 @@
 //! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
+//! Long recordings are fitted in blocks that overlap, of which the inner parts are used: the prior reaches a few tenths
+//! of a second, and the matrix of all frames would take 26 kB per frame.
+//!
 //! Source: the discrete smoothing spline of half order three (Whittaker 1923 for the penalty (unverified)); derived
-//! here. Cost: frames times 9 n³ multiplications per step; 8 bytes times frames times 3 n² of memory.
+//! here. Cost: frames times 9 n³ multiplications per step; 8 bytes times the frames of a block times 3 n² of memory.
 //! Pinned by: tests/marker_smoothing.rs
 
 use super::frames::Frames;
 use super::gaps::Determination;
 use super::normal::{Normal, Targets, cost};
 use super::problem::FitProblem;
-use super::result::FitError;
 use super::settings::SmoothnessPrior;
 use super::solve::Outcome;
 use crate::model::{CoordinateKind, Model};
 use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
+use std::ops::Range;
 
-/// Maximum number of entries in the band matrix: 1 GB.
-const MOST_NUMBERS: usize = 1 << 27;
+/// Most frames that are fitted as one block: 20 s at 100 Hz, 50 MB for 33 coordinates.
+const MOST_TOGETHER: usize = 2000;
+/// Frames of longer recordings that a block adds, and the time by which it reaches into both neighbours [s]. The prior
+/// forgets faster: a change at one end is below a millionth after ten times the 0.1 s in which a joint turns by what
+/// its jerk allows.
+const BLOCK: usize = 1000;
+const OVERLAP_S: f64 = 1.0;
 const HALVINGS: usize = 12;
 /// Weight that keeps a coordinate at the end of its range.
 const HELD: f64 = 1e15;
@@ -61,8 +69,10 @@ impl Ending {
         Ending { steps: 12, small_step: 1e-3, small_gain: 1e-4, newton: false, damping: 1e-4 };
 }
 
-/// The least-squares problem of all frames: positions, weights and the prior.
+/// The least-squares problem of a block of frames: positions, weights and the prior.
 struct SmoothFit {
+    /// The first frame of the block.
+    first: usize,
     positions: Vec<Vec3>,
     weights: Vec<f64>,
     markers: usize,
@@ -74,10 +84,19 @@ struct SmoothFit {
     stiffness: Vec<f64>,
 }
 
-/// Rejects recordings that need too much memory.
-pub(super) fn check(frames: usize, unknowns: usize) -> Result<(), FitError> {
-    let most = MOST_NUMBERS / (unknowns * (3 * unknowns + 1));
-    if frames > most { Err(FitError::TooLong { frames, unknowns, most }) } else { Ok(()) }
+/// Blocks of a recording: the frames that are fitted together, and those of them that are used.
+fn blocks(frames: usize, overlap: usize) -> Vec<[Range<usize>; 2]> {
+    if frames <= MOST_TOGETHER {
+        return vec![[0..frames, 0..frames]];
+    }
+    // The last block takes what would be less than half of one.
+    let count = (frames + BLOCK / 2) / BLOCK;
+    let end = |block: usize| if block + 1 == count { frames } else { (block + 1) * BLOCK };
+    let of = |block: usize| {
+        let used = block * BLOCK..end(block);
+        [used.start.saturating_sub(overlap)..(used.end + overlap).min(frames), used]
+    };
+    (0..count).map(of).collect()
 }
 
 /// Fits all frames together and replaces their postures.
@@ -89,30 +108,47 @@ pub(super) fn smooth(
     smoothing: SmoothnessPrior,
     ending: Ending,
 ) {
-    let unknowns = problem.tree.unknowns();
-    let count = frames.count();
-    let whole = SmoothFit::new(model, problem, frames, states, smoothing);
-    let mut x = whole.start(frames);
-    let mut normal = Normal::new(&problem.tree);
-    let mut total = whole.cost(problem, &x);
-    let (mut steps, mut converged) = (0, false);
-    while steps < ending.steps && !converged {
-        let Some(step) = whole.step(problem, &mut normal, &x, ending) else { break };
-        let Some((next, after)) = whole.walk(problem, &x, &step, total) else {
-            converged = true;
-            break;
-        };
-        let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        converged = longest < ending.small_step || total - after < ending.small_gain * total;
-        (x, total) = (next, after);
-        steps += 1;
+    let n = problem.tree.unknowns();
+    let start = start(frames, n);
+    let overlap = (OVERLAP_S / step_s(&problem.times)).ceil() as usize;
+    let mut fitted = Vec::with_capacity(start.len());
+    let mut outcomes = Vec::new();
+    for [together, used] in blocks(frames.count(), overlap) {
+        let block = SmoothFit::new(model, problem, frames, states, smoothing, together.clone());
+        let (x, outcome) = block.run(problem, start[together.start * n..together.end * n].to_vec(), ending);
+        let [from, to] = [used.start, used.end].map(|frame| (frame - together.start) * n);
+        fitted.extend_from_slice(&x[from..to]);
+        outcomes.push((used, outcome));
     }
-    for frame in 0..count {
-        let own = &x[frame * unknowns..(frame + 1) * unknowns];
-        frames.load(frame, problem);
-        let cost = problem.pose_at(own);
-        frames.keep(frame, problem, own, Outcome { cost, steps, converged, ran_out: false }, false);
+    for (used, outcome) in outcomes {
+        for frame in used {
+            let own = &fitted[frame * n..(frame + 1) * n];
+            frames.load(frame, problem);
+            let cost = problem.pose_at(own);
+            frames.keep(frame, problem, own, Outcome { cost, ..outcome }, false);
+        }
     }
+}
+
+/// Mean time between frames [s].
+fn step_s(times: &[f64]) -> f64 {
+    (times[times.len() - 1] - times[0]) / (times.len().max(2) - 1) as f64
+}
+
+/// Postures of the frame-by-frame fit; missing ones are copied from the frame before.
+fn start(frames: &Frames, n: usize) -> Vec<f64> {
+    let mut x: Vec<f64> = (0..frames.count()).flat_map(|frame| frames.posture(frame).to_vec()).collect();
+    for i in n..x.len() {
+        if !x[i].is_finite() {
+            x[i] = x[i - n];
+        }
+    }
+    for i in (0..x.len().saturating_sub(n)).rev() {
+        if !x[i].is_finite() {
+            x[i] = x[i + n];
+        }
+    }
+    x
 }
 
 impl SmoothFit {
@@ -122,42 +158,44 @@ impl SmoothFit {
         frames: &Frames,
         states: &[Determination],
         smoothing: SmoothnessPrior,
+        block: Range<usize>,
     ) -> SmoothFit {
-        let (markers, unknowns, count) = (frames.markers(), problem.tree.unknowns(), frames.count());
+        let (markers, unknowns, count) = (frames.markers(), problem.tree.unknowns(), block.len());
         let mut positions = vec![Vec3::zeros(); count * markers];
         let mut weights = vec![0.0; count * markers];
-        for frame in 0..count {
+        for (row, frame) in block.clone().enumerate() {
             let gap = states[frame * unknowns..(frame + 1) * unknowns].contains(&Determination::Gap);
             frames.load_as_if_seen(frame, problem, !gap);
-            positions[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.positions);
-            weights[frame * markers..(frame + 1) * markers].copy_from_slice(&problem.frame_weights);
+            positions[row * markers..(row + 1) * markers].copy_from_slice(&problem.positions);
+            weights[row * markers..(row + 1) * markers].copy_from_slice(&problem.frame_weights);
         }
-        let times = &problem.times;
-        let step_s = (times[count - 1] - times[0]) / (count.max(2) - 1) as f64;
+        let step_s = step_s(&problem.times);
         let jerk = |u: usize| match model.coordinates()[problem.tree.coordinate(u)].kind {
             CoordinateKind::Translation => smoothing.translation_jerk,
             CoordinateKind::Rotation | CoordinateKind::Coupled => smoothing.rotation_jerk,
         };
         let stiffness = (0..unknowns).map(|u| (step_s.powi(3) * jerk(u)).powi(-2)).collect();
         let precision = smoothing.marker_noise_m.powi(-2);
-        SmoothFit { positions, weights, markers, unknowns, frames: count, precision, stiffness }
+        SmoothFit { first: block.start, positions, weights, markers, unknowns, frames: count, precision, stiffness }
     }
 
-    /// Postures of the frame-by-frame fit; missing ones are copied from the frame before.
-    fn start(&self, frames: &Frames) -> Vec<f64> {
-        let mut x: Vec<f64> = (0..self.frames).flat_map(|frame| frames.posture(frame).to_vec()).collect();
-        let n = self.unknowns;
-        for i in n..x.len() {
-            if !x[i].is_finite() {
-                x[i] = x[i - n];
-            }
+    /// Newton's method from these postures; the cost of the outcome is that of the block.
+    fn run(&self, problem: &mut FitProblem<'_>, mut x: Vec<f64>, ending: Ending) -> (Vec<f64>, Outcome) {
+        let mut normal = Normal::new(&problem.tree);
+        let mut total = self.cost(problem, &x);
+        let (mut steps, mut converged) = (0, false);
+        while steps < ending.steps && !converged {
+            let Some(step) = self.step(problem, &mut normal, &x, ending) else { break };
+            let Some((next, after)) = self.walk(problem, &x, &step, total) else {
+                converged = true;
+                break;
+            };
+            let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            converged = longest < ending.small_step || total - after < ending.small_gain * total;
+            (x, total) = (next, after);
+            steps += 1;
         }
-        for i in (0..x.len().saturating_sub(n)).rev() {
-            if !x[i].is_finite() {
-                x[i] = x[i + n];
-            }
-        }
-        x
+        (x, Outcome { cost: total, steps, converged, ran_out: false })
     }
 
     fn targets<'t>(&'t self, problem: &'t FitProblem<'_>, frame: usize) -> Targets<'t> {
@@ -167,7 +205,7 @@ impl SmoothFit {
 
     /// Puts the model into the posture of a frame.
     fn pose(&self, problem: &mut FitProblem<'_>, frame: usize, x: &[f64]) {
-        problem.enter(frame);
+        problem.enter(self.first + frame);
         problem.tree.pose_at(&x[frame * self.unknowns..(frame + 1) * self.unknowns]);
     }
 

@@ -76,8 +76,13 @@ struct Person<'a>(&'a Job);
 impl Debug for Person<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let job = self.0;
-        f.debug_struct("SubjectArgs")
-            .field("still", &job.standing)
+        let mut fields = f.debug_struct("SubjectArgs");
+        fields.field("still", &job.standing);
+        // Left out where it is not stated, so that the identifiers of earlier runs stay.
+        if let Some(subject) = &job.subject {
+            fields.field("subject", subject);
+        }
+        fields
             .field("mass", &job.size.mass_kg)
             .field("height", &job.size.height_m)
             .field("figure", &job.segments.name())

@@ -1,5 +1,6 @@
 //! Messages of a stream: lines of JSON, or records of 32-bit numbers.
 
+use super::line_text::{text, without_nan};
 use crate::args::{LabAxes, MarkerUnit};
 use anyhow::{Result, anyhow, bail};
 use serde::{Deserialize, Serialize};
@@ -42,6 +43,11 @@ impl Message {
     /// Whether the message describes the coordinates of frames or their unit.
     pub(super) fn names_coordinates(&self) -> bool {
         self.coordinates.is_some() || self.angles.is_some()
+    }
+
+    /// Whether the message says anything.
+    pub(super) fn has_content(&self) -> bool {
+        self.names_coordinates() || self.names_markers() || self.q.is_some() || self.markers.is_some()
     }
 
     /// Whether the message describes the markers of frames, or their unit and axes.
@@ -128,9 +134,12 @@ pub(super) enum Answer {
 /// # Errors
 /// A line that is no message.
 pub fn from_json(line: &[u8]) -> Result<Message> {
-    // Some programs begin a file with a byte order mark.
-    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
-    serde_json::from_slice(line).map_err(|error| {
+    let line = text(line);
+    let read = serde_json::from_slice(&line).or_else(|error| match without_nan(&line) {
+        readable if readable != line => serde_json::from_slice(&readable),
+        _ => Err(error),
+    });
+    read.map_err(|error| {
         // A message is one line, so that the number of the line is always 1.
         let what = error.to_string().replace(" at line 1 column", " at column");
         anyhow!(

@@ -1,9 +1,13 @@
 //! Where messages come from and answers go.
 
+use super::line_text::is_http;
+use super::patient::{Patient, is_over};
 use super::{Conversation, Setup};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
+use std::cell::Cell;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, UdpSocket};
+use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::time::{Duration, Instant};
 
 /// Longest line [bytes]: a frame of a thousand coordinates has 20 kB.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -15,25 +19,46 @@ const MOST_SENDERS: usize = 8;
 /// Takes messages from one sender until there are no more.
 ///
 /// # Errors
-/// A link that cannot be read or written, a line without end, a model that cannot be streamed. A receiver that has
-/// closed its end is none.
+/// A link that cannot be read or written, a line without end, a request of HTTP, a model that cannot be streamed. A
+/// receiver that has closed its end is none, nor is a sender that was silent for too long.
 pub(super) fn serve(
     input: &mut impl BufRead,
     output: &mut impl Write,
     conversation: &mut Conversation<'_>,
+    waiting: impl Fn(),
 ) -> Result<()> {
     conversation.greet();
     let mut message = Vec::new();
-    while send(output, conversation)? && next(input, conversation.message_bytes(), &mut message)? {
-        conversation.receive(&message)?;
+    while send(output, conversation)? {
+        waiting();
+        match next(input, conversation.message_bytes(), &mut message)? {
+            Taken::Message if is_http(&message) && !conversation.is_valid() => bail!(
+                "an HTTP request; expected frames. The connection is ended, because any page in a browser can send \
+                 such a request"
+            ),
+            Taken::Message => conversation.receive(&message)?,
+            Taken::Silence => {
+                conversation.silent();
+                break;
+            }
+            Taken::End => break,
+        }
     }
     conversation.end()?;
     send(output, conversation)?;
     Ok(())
 }
 
-/// Reads a record of this size or else a line; false at the end of the input.
-fn next(input: &mut impl BufRead, bytes: Option<usize>, message: &mut Vec<u8>) -> Result<bool> {
+/// What was read.
+enum Taken {
+    Message,
+    /// The time for a message was over.
+    Silence,
+    End,
+}
+
+/// Reads a record of this size or else a line.
+fn next(input: &mut impl BufRead, bytes: Option<usize>, message: &mut Vec<u8>) -> Result<Taken> {
     message.clear();
     let longest = bytes.map_or(LONGEST_LINE, |bytes| bytes as u64);
     let mut limited = input.take(longest);
@@ -42,12 +67,13 @@ fn next(input: &mut impl BufRead, bytes: Option<usize>, message: &mut Vec<u8>) -
         None => limited.read_until(b'\n', message),
     };
     match read {
-        Ok(0) => Ok(false),
+        Ok(0) => Ok(Taken::End),
         Ok(read) if bytes.is_none() && read as u64 == LONGEST_LINE && message.last() != Some(&b'\n') => {
             Err(anyhow!("a line of more than 1 MB; expected a message of one line. hint: --format f32 reads records"))
         }
-        Ok(_) => Ok(true),
-        Err(error) if is_gone(error.kind()) => Ok(false),
+        Ok(_) => Ok(Taken::Message),
+        Err(error) if is_gone(error.kind()) => Ok(Taken::End),
+        Err(error) if is_over(error.kind()) => Ok(Taken::Silence),
         Err(error) => Err(error).context("frames cannot be read"),
     }
 }
@@ -58,7 +84,7 @@ fn send(output: &mut impl Write, conversation: &mut Conversation<'_>) -> Result<
     conversation.out.clear();
     match sent {
         Ok(()) => Ok(true),
-        Err(error) if is_gone(error.kind()) => Ok(false),
+        Err(error) if is_gone(error.kind()) || is_over(error.kind()) => Ok(false),
         Err(error) => Err(error).context("results cannot be written"),
     }
 }
@@ -75,13 +101,14 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     let listener = bound(address, "TCP")?;
     say_listening(setup, "TCP", listener.local_addr()?);
     loop {
-        let (connection, peer) = listener.accept().context("connections cannot be accepted")?;
+        let (connection, peer) = match listener.accept() {
+            Ok(accepted) => accepted,
+            // It was gone before it was accepted.
+            Err(error) if is_gone(error.kind()) => continue,
+            Err(error) => return Err(error).context("connections cannot be accepted"),
+        };
         setup.say(&format!("{peer} connected"));
-        // Every answer is sent at once, without waiting for more; where that cannot be chosen, answers come later.
-        let _ = connection.set_nodelay(true);
-        let mut conversation = Conversation::new(setup)?;
-        let mut input = BufReader::new(&connection);
-        match serve(&mut input, &mut &connection, &mut conversation) {
+        match serve_connection(setup, &connection) {
             Err(error) if error.chain().any(|cause| cause.is::<ambulo::ground::stream::StreamError>()) => {
                 return Err(error);
             }
@@ -92,7 +119,23 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
-/// Answers every datagram to its sender. Each sender has its own conversation; an empty datagram ends it.
+/// Serves a connection until it ends, or is silent or reads nothing for the longest time.
+fn serve_connection(setup: &Setup<'_>, connection: &TcpStream) -> Result<()> {
+    let idle = Some(Duration::from_secs_f64(setup.args.idle)).filter(|idle| !idle.is_zero());
+    // Every answer is sent at once, without waiting for more; where that cannot be chosen, answers come later.
+    let _ = connection.set_nodelay(true);
+    connection.set_write_timeout(idle)?;
+    let begun = Cell::new(Instant::now());
+    let mut input = BufReader::new(Patient::new(connection, idle, &begun));
+    let mut conversation = Conversation::new(setup)?;
+    serve(&mut input, &mut &*connection, &mut conversation, || begun.set(Instant::now()))
+}
+
+/// The conversations with the senders of datagrams, the one with the latest datagram last.
+type Senders<'a> = Vec<(SocketAddr, Conversation<'a>)>;
+
+/// Answers every datagram to its sender, once it has sent a valid one. Each sender has its own conversation; an empty
+/// datagram ends it.
 ///
 /// # Errors
 /// A port that cannot be used, a model that cannot be streamed.
@@ -100,8 +143,7 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     let socket = UdpSocket::bind(address).map_err(|error| not_bound(error, "UDP", address))?;
     say_listening(setup, "UDP", socket.local_addr()?);
     let mut datagram = vec![0; LARGEST_DATAGRAM];
-    // The sender of the last datagram is the last one.
-    let mut senders: Vec<(SocketAddr, Conversation<'_>)> = Vec::new();
+    let mut senders = Senders::new();
     loop {
         let (length, peer) = match socket.recv_from(&mut datagram) {
             Ok(received) => received,
@@ -112,20 +154,18 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
         let mut conversation = match senders.iter().position(|(sender, _)| *sender == peer) {
             Some(place) => senders.remove(place).1,
             None => {
-                if senders.len() == MOST_SENDERS {
-                    let (silent, mut conversation) = senders.remove(0);
-                    conversation.end()?;
-                    send_datagram(&socket, silent, &mut conversation);
-                }
-                setup.say(&format!("frames come from {peer}"));
-                let mut conversation = Conversation::new(setup)?;
-                conversation.greet();
-                conversation
+                make_room(&mut senders, &socket)?;
+                Conversation::new(setup)?
             }
         };
+        let was_valid = conversation.is_valid();
         match length {
             0 => conversation.end()?,
             _ => conversation.receive(&datagram[..length])?,
+        }
+        if !was_valid && conversation.is_valid() {
+            setup.say(&format!("frames come from {peer}"));
+            conversation.greet_first();
         }
         send_datagram(&socket, peer, &mut conversation);
         if length > 0 {
@@ -134,8 +174,26 @@ pub(super) fn serve_udp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
-/// Sends the answers in one datagram; a sender that has gone is no reason to stop.
+/// Ends a conversation if there are too many: one without a valid message, or else the one that was silent the longest.
+fn make_room(senders: &mut Senders<'_>, socket: &UdpSocket) -> Result<()> {
+    if senders.len() < MOST_SENDERS {
+        return Ok(());
+    }
+    let stray = senders.iter().position(|(_, conversation)| !conversation.is_valid());
+    let (silent, mut conversation) = senders.remove(stray.unwrap_or(0));
+    if conversation.is_valid() {
+        conversation.end()?;
+    }
+    send_datagram(socket, silent, &mut conversation);
+    Ok(())
+}
+
+/// Sends the answers in one datagram; a sender that has gone is no reason to stop. One that has sent nothing valid gets
+/// none: its address may be another computer's.
 fn send_datagram(socket: &UdpSocket, peer: SocketAddr, conversation: &mut Conversation<'_>) {
+    if !conversation.is_valid() {
+        conversation.out.clear();
+    }
     if conversation.out.is_empty() {
         return;
     }

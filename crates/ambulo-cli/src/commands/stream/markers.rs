@@ -6,11 +6,21 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, LiveMarkerFit};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BodyId, Model};
+use ambulo::numerics::median;
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
 
 /// Markers of a body that is followed are 1 to 4 cm from it. A fit is lost if a quarter of them is farther away [m].
 const LOST_M: f64 = 0.1;
+
+/// Postures in which a person is upright or not [s].
+const JUDGED_S: f64 = 0.5;
+/// Nobody walks with the pelvis inclined by more than 60 degrees.
+const LYING_COSINE: f64 = 0.5;
+
+/// Factors of positions in millimetres or centimetres that are stated as metres, and of those in centimetres or metres
+/// that are stated as millimetres.
+const OTHER_UNITS: [f64; 5] = [1e-3, 1e-2, 10.0, 1e2, 1e3];
 
 /// Outcome of a frame.
 pub(super) enum Fitted {
@@ -34,6 +44,10 @@ pub(super) struct MarkerFrames {
     attached: Vec<Option<(BodyId, Vec3)>>,
     /// Positions of one frame, in the axes of the model [m].
     positions: Vec<Vec3>,
+    /// What positions are multiplied with because the stated unit is not theirs; `None` before that is known.
+    correction: Option<f64>,
+    /// Cosines of the angle from upright of the first postures, until they are judged.
+    upright: Option<Vec<f64>>,
 }
 
 impl MarkerFrames {
@@ -52,7 +66,18 @@ impl MarkerFrames {
             );
         }
         let fit = fit(model, &names, rate_hz, &mut Findings::default())?;
-        Ok(MarkerFrames { attached: attached(model, &names), names, unit, axes, rate_hz, fit, positions: Vec::new() })
+        let (attached, positions) = (attached(model, &names), Vec::new());
+        Ok(MarkerFrames {
+            attached,
+            names,
+            unit,
+            axes,
+            rate_hz,
+            fit,
+            positions,
+            correction: None,
+            upright: Some(Vec::new()),
+        })
     }
 
     /// Number of values of a frame.
@@ -81,6 +106,7 @@ impl MarkerFrames {
             self.attached = attached(model, names);
             self.names = names.to_vec();
         }
+        (self.correction, self.upright) = (None, Some(Vec::new()));
         self.unit = message.unit.unwrap_or(self.unit);
         self.axes = message.axes.unwrap_or(self.axes);
         Ok(findings.as_slice().first().map(|finding| finding.message.clone()))
@@ -107,7 +133,7 @@ impl MarkerFrames {
         if values.len() != self.values() {
             bail!("a frame with {} markers; expected {expected}, as they were named", values.len() as f64 / 3.0);
         }
-        let axes = self.axes.world_from_lab() * self.unit.metres();
+        let axes = self.axes.world_from_lab() * (self.unit.metres() * self.correction.unwrap_or(1.0));
         self.positions.clear();
         for (name, place) in self.names.iter().zip(values.chunks_exact(3)) {
             let position = Vec3::from_iterator(place.iter().map(|value| value.unwrap_or(f64::NAN)));
@@ -118,6 +144,50 @@ impl MarkerFrames {
             self.positions.push(if is_seen { axes * position } else { Vec3::repeat(f64::NAN) });
         }
         Ok(())
+    }
+
+    /// Corrects the unit of the frame that was taken, and of those after it, if the body would have an impossible size
+    /// with the stated one, as the readers of files do. Returns what is to be known then.
+    pub(super) fn correct_unit(&mut self, model: &Model) -> Option<String> {
+        if self.correction.is_some() {
+            return None;
+        }
+        let poses = model.poses(&model.coordinates().iter().map(|c| c.default_value).collect::<Vec<f64>>());
+        let on_body = self.visible().map(|(_, body, local)| poses[body.index()].place(local));
+        let expected_m = extent(&on_body.collect::<Vec<Vec3>>())?;
+        let found_m = extent(&self.visible().map(|(place, ..)| place).collect::<Vec<Vec3>>())?;
+        // A crouching or stretching person differs by less than a factor of two.
+        let is_near = |factor: &f64| (0.3..3.2).contains(&(found_m * factor / expected_m));
+        let factor = OTHER_UNITS.into_iter().find(is_near);
+        self.correction = factor.or(Some(1.0));
+        let factor = factor?;
+        self.positions.iter_mut().for_each(|place| *place *= factor);
+        let (unit, metres) = (self.unit.word(), self.unit.metres() * factor);
+        Some(format!(
+            "half of the markers are more than {found_m:.3} m from their middle, those of the model {expected_m:.3} m: \
+             the positions are not in {unit} as stated; they are read as {metres} m each. hint: state the unit with \
+             --unit or in the first line"
+        ))
+    }
+
+    /// Judges whether the body is upright in its first postures; returns what is to be known if it is not.
+    pub(super) fn judge_axes(&mut self, model: &Model, q: &[f64]) -> Option<String> {
+        let upright = self.upright.as_mut()?;
+        let defaults: Vec<f64> = model.coordinates().iter().map(|c| c.default_value).collect();
+        let root = |q: &[f64]| model.poses(q).first().map(|pose| pose.rotation);
+        let turned = root(q)? * root(&defaults)?.transpose();
+        upright.push(model.up().dot(&(turned * model.up())));
+        if (upright.len() as f64) < JUDGED_S * self.rate_hz {
+            return None;
+        }
+        let cosine = median(self.upright.take()?)?;
+        (cosine < LYING_COSINE).then(|| {
+            format!(
+                "the pelvis is inclined by more than 60 deg: the person lies, or the axes of the laboratory are not \
+                 {}. hint: state the axes that point forward and up with --axes or in the first line",
+                self.axes
+            )
+        })
     }
 
     /// Fits the frame that was taken. After a fit that is lost, the next frame is fitted as the first one.
@@ -151,6 +221,16 @@ impl MarkerFrames {
         distances.sort_by(f64::total_cmp);
         distances.get(3 * distances.len() / 4).copied()
     }
+}
+
+/// The median distance of points from their middle, by medians, which a stray marker does not move [m]; `None` for too
+/// few points.
+fn extent(points: &[Vec3]) -> Option<f64> {
+    const FEWEST: usize = 4;
+    let along = |axis: usize| median(points.iter().map(|point| point[axis]));
+    let middle = Vec3::new(along(0)?, along(1)?, along(2)?);
+    let distance = median(points.iter().map(|point| (point - middle).norm()))?;
+    (points.len() >= FEWEST && distance > 0.0).then_some(distance)
 }
 
 /// Body and place of each marker.

@@ -4,14 +4,17 @@
 //! that is too fast waits (TCP, pipes) or loses datagrams (UDP), which the numbers of the frames show. The live page
 //! has threads of its own, for which this one never waits.
 
+pub(crate) mod clock;
 mod conversation;
 mod coordinates;
 pub(crate) mod formats;
+pub(crate) mod line_text;
 mod links;
 mod live_view;
 mod markers;
 pub(crate) mod numbering;
 pub(crate) mod page_server;
+mod patient;
 
 use crate::args::{Endpoint, StreamArgs};
 use crate::{Completion, files, printer};
@@ -65,9 +68,12 @@ pub(crate) fn run(args: &StreamArgs) -> Result<Completion> {
     if let Some(address) = args.page {
         setup.page = Some(page(&setup, address)?);
     }
-    let mut conversation = Conversation::new(&setup)?;
     match args.input {
-        Endpoint::Stdin => links::serve(&mut stdin().lock(), &mut stdout().lock(), &mut conversation)?,
+        Endpoint::Stdin => {
+            let mut conversation = Conversation::new(&setup)?;
+            links::serve(&mut stdin().lock(), &mut stdout().lock(), &mut conversation, || ())?;
+            conversation.check_used()?;
+        }
         Endpoint::Tcp(address) => links::serve_tcp(&setup, address)?,
         Endpoint::Udp(address) => links::serve_udp(&setup, address)?,
     }

@@ -5,9 +5,12 @@
 //! rebound to this computer is not, and `Origin`, where a browser sends it, must be this server.
 //!
 //! The stream never waits for a browser: every browser has a queue of [`QUEUE`] events; those that find it full are
-//! skipped, and a browser that takes nothing for [`TIMEOUT`] is disconnected.
+//! skipped, and a browser that takes nothing for [`TIMEOUT`] is disconnected. A request must be complete within
+//! [`REQUEST_TIME`], so that connections that send next to nothing do not shut browsers out.
 
+use super::patient::Patient;
 use anyhow::Result;
+use std::cell::Cell;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::{IpAddr, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,6 +25,10 @@ pub const QUEUE: usize = 64;
 const TIMEOUT: Duration = Duration::from_secs(5);
 /// Time without events after which a comment is sent, so that a closed browser is detected.
 const KEEP_ALIVE: Duration = Duration::from_secs(2);
+/// Longest time of a request, however slowly its bytes come.
+const REQUEST_TIME: Duration = Duration::from_secs(5);
+/// Pause after a connection that could not be accepted, such as without a free file descriptor.
+const PAUSE: Duration = Duration::from_millis(200);
 /// Largest request [bytes].
 const LARGEST_REQUEST: u64 = 1 << 14;
 /// Browsers at the same time.
@@ -56,7 +63,11 @@ impl PageServer {
         let (html, serving) = (Arc::<str>::from(html), server.clone());
         thread::spawn(move || {
             let open = Arc::new(AtomicUsize::new(0));
-            for connection in listener.incoming().flatten() {
+            for connection in listener.incoming() {
+                let Ok(connection) = connection else {
+                    thread::sleep(PAUSE);
+                    continue;
+                };
                 if open.load(Ordering::Relaxed) >= MOST_BROWSERS {
                     continue;
                 }
@@ -123,7 +134,6 @@ impl PageServer {
     }
 
     fn answer(&self, mut connection: &TcpStream, html: &str) -> std::io::Result<()> {
-        connection.set_read_timeout(Some(TIMEOUT))?;
         connection.set_write_timeout(Some(TIMEOUT))?;
         let request = Request::read(connection)?;
         match request.status() {
@@ -201,7 +211,9 @@ struct Request {
 
 impl Request {
     fn read(connection: &TcpStream) -> std::io::Result<Request> {
-        let mut lines = BufReader::new(connection.take(LARGEST_REQUEST)).lines();
+        let begun = Cell::new(Instant::now());
+        let patient = Patient::new(connection, Some(REQUEST_TIME), &begun);
+        let mut lines = BufReader::new(patient.take(LARGEST_REQUEST)).lines();
         let first = lines.next().ok_or(ErrorKind::UnexpectedEof)??;
         let mut words = first.split(' ').map(str::to_owned);
         let mut request = Request {

@@ -23,7 +23,7 @@ use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anatomy::Sole;
-use crate::model::{BySide, CoordinateKind, Drive, Model, Side};
+use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
 use crate::motion::TimeGrid;
 use crate::numerics::mean;
 use crate::spatial::Vec3;
@@ -74,6 +74,11 @@ pub struct FootGuide {
 pub struct TrackSettings {
     /// Deviation of a joint angle that costs 1 [rad].
     pub angle: f64,
+    /// Largest change of a joint angle that costs nothing besides [rad]: more than the errors of markers and of
+    /// skeletons.
+    pub most_change: f64,
+    /// Angle beyond this change, or beyond the range of the joint, that costs 1 [rad].
+    pub beyond: f64,
     /// The same for the rotations of the root [rad].
     pub root_angle: f64,
     /// The same for the translations of the root [m].
@@ -102,6 +107,8 @@ impl Default for TrackSettings {
     fn default() -> TrackSettings {
         TrackSettings {
             angle: 4.0 * DEGREE,
+            most_change: 15.0 * DEGREE,
+            beyond: 0.5 * DEGREE,
             root_angle: 1.5 * DEGREE,
             place: 0.01,
             turning: 30.0,
@@ -237,6 +244,8 @@ pub struct TrackedMotion {
     pub residual: (f64, f64),
     /// Root mean square of the changes of all rotations [rad], and of the translations of the root [m].
     pub moved: [f64; 2],
+    /// Largest change of each rotation [rad], by the name of its coordinate.
+    pub turned: Vec<(String, f64)>,
 }
 
 /// A recorded motion as a problem of optimal motion.
@@ -312,8 +321,8 @@ impl<'a> TrackProblem<'a> {
         if residual.0.is_nan() || residual.0 > LARGEST_RESIDUAL {
             return Err(TrackError::NotSolved { share: residual.0 });
         }
-        let moved = self.moved(&trajectory);
-        Ok(TrackedMotion { trajectory, feet, solution, floor_m: self.floor_m, residual, moved })
+        let (moved, turned) = (self.moved(&trajectory), self.turned(&trajectory));
+        Ok(TrackedMotion { trajectory, feet, solution, floor_m: self.floor_m, residual, moved, turned })
     }
 
     /// The motion in the axes of the recording.
@@ -349,6 +358,21 @@ impl<'a> TrackProblem<'a> {
             .collect();
         let mean = all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64;
         (mean.sqrt(), all.iter().fold(0.0, |a, &b| a.max(b)))
+    }
+
+    /// Largest change of each rotation.
+    fn turned(&self, trajectory: &Trajectory) -> Vec<(String, f64)> {
+        let model = &self.problem.model;
+        let is_free = |id: &CoordinateId| {
+            let coordinate = &model.coordinates()[id.index()];
+            coordinate.kind == CoordinateKind::Rotation && matches!(coordinate.drive, Drive::Free)
+        };
+        let largest = |id: CoordinateId| {
+            let pairs = trajectory.values(id).iter().zip(self.recorded.values(id));
+            let change = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            (model.coordinates()[id.index()].name.clone(), change)
+        };
+        model.coordinate_ids().filter(is_free).map(largest).collect()
     }
 
     /// Root mean square of the changes of rotations and of translations.

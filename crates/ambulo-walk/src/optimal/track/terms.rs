@@ -33,6 +33,7 @@ pub(super) fn terms(
     for id in recorded.model.coordinate_ids() {
         if matches!(recorded.model.coordinates()[id.index()].drive, Drive::Free) {
             terms.extend(recorded.motion(id));
+            terms.extend(recorded.limits(id));
             terms.extend(moments.get(id.index()).and_then(|moment| recorded.moment(id, moment)));
         }
     }
@@ -66,6 +67,31 @@ impl Recorded<'_> {
         [
             near("position", Quantity::Position(vec![(id, 1.0)]), places, place),
             near("acceleration", Quantity::Acceleration(vec![(id, 1.0)]), accelerations, acceleration),
+        ]
+    }
+
+    /// Limits of a joint angle: its range, and [`TrackSettings::most_change`] from the recorded angle. Between them
+    /// they cost nothing. Recorded angles beyond the range stay allowed.
+    fn limits(&self, id: CoordinateId) -> Vec<Term> {
+        let Recorded { model, trajectory, instants, settings, .. } = self;
+        let coordinate = &model.coordinates()[id.index()];
+        let is_root = model.bodies().iter().any(|b| b.joint.parent.is_none() && b.joint.coordinates().contains(&id));
+        if coordinate.kind != CoordinateKind::Rotation || is_root {
+            return Vec::new();
+        }
+        let [low, high] = coordinate.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let angles = instants.pick(trajectory.values(id));
+        let limit = |bound: Bound, of: &dyn Fn(f64) -> f64| Term {
+            name: "limit".to_owned(),
+            quantity: Quantity::Position(vec![(id, 1.0)]),
+            targets: angles.iter().map(|angle| angle.map(of)).collect(),
+            deviation: settings.beyond,
+            bound,
+        };
+        let most = settings.most_change;
+        vec![
+            limit(Bound::AtLeast, &|angle| (angle - most).max(low.min(angle))),
+            limit(Bound::AtMost, &|angle| (angle + most).min(high.max(angle))),
         ]
     }
 

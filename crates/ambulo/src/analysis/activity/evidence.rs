@@ -27,6 +27,8 @@ const PIECE_S: f64 = 0.5;
 pub(super) struct Evidence {
     /// Number of foot strikes.
     pub(super) steps: usize,
+    /// Median way of a foot over the floor from one stance to its next one [m]; `None` without two stances of a foot.
+    pub(super) stride_m: Option<f64>,
     /// Path of the pelvis over the floor [m].
     pub(super) path_m: f64,
     /// Mean speed along this path [m/s].
@@ -53,6 +55,8 @@ pub(super) struct Evidence {
 struct Instant {
     /// Pelvis over the floor, horizontal [m].
     level: Vec3,
+    /// The rear points of the soles over the floor, horizontal [m].
+    feet: BySide<Vec3>,
     /// Height of the pelvis [m].
     height: f64,
     /// Heading of the pelvis [rad], in (-π, π].
@@ -74,6 +78,7 @@ impl Evidence {
         let edge = (EDGE_S / grid.step_s).round() as usize;
         let inner = edge..grid.frames.checked_sub(edge)?;
         let instants = instants(model, trajectory, soles, footfalls.floor_velocity)?;
+        let stride_m = stride(&instants, footfalls, grid);
         let instants = instants.get(inner.clone()).filter(|inner| inner.len() >= 2)?;
         let flight = longest_flight(model, trajectory, footfalls, inner.start);
         let heights: Vec<f64> = instants.iter().map(|instant| instant.height).collect();
@@ -81,6 +86,7 @@ impl Evidence {
         let path_m = path(instants, grid);
         Some(Evidence {
             steps: footfalls.falls.iter().filter(|fall| fall.strike_s.is_some()).count(),
+            stride_m,
             path_m,
             speed_m_s: path_m / ((instants.len() - 1) as f64 * grid.step_s),
             duty_factor: duty_factor(footfalls),
@@ -110,14 +116,18 @@ fn instants(
         let across = bodies[legs.right.index()].pose.translation - bodies[legs.left.index()].pose.translation;
         let forward = up.cross(&across);
         let forward = forward - up * forward.dot(&up);
-        let place = bodies[pelvis.index()].pose.translation - floor_velocity * (grid.time(frame) - grid.start_s);
-        let behind = |side: Side| -> f64 {
+        let moved = floor_velocity * (grid.time(frame) - grid.start_s);
+        let place = bodies[pelvis.index()].pose.translation - moved;
+        let rear = |side: Side| {
             let point = &soles[side].points[0];
-            let rear = bodies[point.body.index()].pose.place(point.place);
-            (rear - mass_center(model, bodies)).dot(&forward) / forward.norm().max(f64::MIN_POSITIVE)
+            bodies[point.body.index()].pose.place(point.place)
+        };
+        let behind = |side: Side| -> f64 {
+            (rear(side) - mass_center(model, bodies)).dot(&forward) / forward.norm().max(f64::MIN_POSITIVE)
         };
         instants.push(Instant {
             level: place - up * place.dot(&up),
+            feet: BySide::from_fn(|side| rear(side) - moved - up * (rear(side) - moved).dot(&up)),
             height: place.dot(&up),
             heading: heading(forward, up),
             behind_m: behind(Side::Right).min(behind(Side::Left)),
@@ -136,6 +146,21 @@ fn heading(forward: Vec3, up: Vec3) -> f64 {
     let reference = if up.x.abs() < 0.5 { Vec3::x() } else { Vec3::z() };
     let ahead = (reference - up * reference.dot(&up)).normalize();
     atan2(forward.dot(&up.cross(&ahead)), forward.dot(&ahead))
+}
+
+/// Median distance between the places of a foot in the middle of a stance and of its next one [m].
+fn stride(instants: &[Instant], footfalls: &Footfalls, grid: TimeGrid) -> Option<f64> {
+    let middle = |fall: &Footfall| {
+        let (from, to) = (fall.strike_s.unwrap_or(grid.start_s), fall.off_s.unwrap_or(grid.end_s()));
+        let frame = ((0.5 * (from + to) - grid.start_s) / grid.step_s).round() as usize;
+        instants.get(frame).map(|instant| instant.feet[fall.side])
+    };
+    let mut ways = Vec::new();
+    for side in Side::BOTH {
+        let places: Vec<Vec3> = footfalls.of(side).filter_map(middle).collect();
+        ways.extend(places.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
+    }
+    median(ways)
 }
 
 /// Length of the path in pieces [m].

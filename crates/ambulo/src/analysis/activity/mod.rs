@@ -7,10 +7,10 @@
 //! | kind | what decides |
 //! |---|---|
 //! | `jump` | both feet leave the ground at nearly the same time and the body flies for at least √(L/g)/4: the mass centre rises by more than g t²/8 |
-//! | `run` | steps with duty factor below one half, so that the stances of the two feet do not overlap (Alexander 1989) |
+//! | `run` | steps with duty factor below one half, so that the stances of the two feet do not overlap (Alexander 1989), faster than 0.3 √(g L); slower ones with a flight are a `jump` |
 //! | `stairs_up`, `stairs_down` | steps that rise or fall by more than 0.08 m each, on average |
 //! | `turn` | steps while the pelvis turns by more than 45 degrees |
-//! | `walk` | steps that carry the body further than L/2 over the floor, or over the belt of a treadmill; in a recording of a part of a stride, a pelvis that travels faster than 0.15 √(g L) at an even height |
+//! | `walk` | steps that carry the body further than L/2 over the floor, with strides longer than 0.3 L and without a flight, or over the belt of a treadmill; in a recording of a part of a stride, a pelvis that travels faster than 0.15 √(g L) at an even height |
 //! | `sit_to_stand` | the pelvis rises or falls by a quarter of L, and at its lowest the mass centre is behind both feet: a seat carries it |
 //! | `squat` | the pelvis falls by a tenth of L while the knees bend by more than 30 degrees, with the mass centre over the feet |
 //! | `stand` | the pelvis stays within a tenth of L in height, and does not travel |
@@ -45,6 +45,12 @@ const LEAST_PATH: f64 = 0.5;
 /// The pelvis of a person who walks travels faster than this share of √(g L), 0.45 m/s for an adult: the slowest group
 /// of Schwartz 2008 walks at 0.17.
 const LEAST_SPEED: f64 = 0.15;
+/// From one stance of a foot to its next one it moves further than this share of the leg length in a walk: two steps of
+/// 0.15 L, 0.13 m of an adult. Feet that only lose and take load do not move.
+const LEAST_STRIDE: f64 = 0.3;
+/// Slower than this share of √(g L), 0.9 m/s for an adult, nobody runs: people jog from 1.5 m/s on. Leaps and landings
+/// are slower.
+const SLOWEST_RUN: f64 = 0.3;
 /// Above this share of √(g L) people run: Froude number one half (Alexander 1989).
 const RUNNING_SPEED: f64 = 0.7;
 /// The pelvis of a person who stands stays within this share of the leg length.
@@ -200,15 +206,21 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
     let lowers = found.pelvis_range_m > STANDING * leg_m;
     let travels = found.speed_m_s > LEAST_SPEED * (leg_m * gravity).sqrt();
     let part_of_a_stride = found.steps < 2 && travels && !lowers && !flies;
-    let steps = found.steps >= 2 && found.path_m > LEAST_PATH * leg_m || part_of_a_stride;
+    // Feet that stay where they are carry nobody away, however the pelvis sways.
+    let advances = found.stride_m.is_none_or(|stride_m| stride_m > LEAST_STRIDE * leg_m);
+    let steps = found.steps >= 2 && advances && found.path_m > LEAST_PATH * leg_m || part_of_a_stride;
     if steps {
-        let is_fast = found.speed_m_s > RUNNING_SPEED * (leg_m * gravity).sqrt();
-        let runs = found.duty_factor.map_or(flies || part_of_a_stride && is_fast, |share| {
-            (RUNNING_DUTY_FACTOR[0]..RUNNING_DUTY_FACTOR[1]).contains(&share)
-        });
+        let is_faster_than = |share: f64| found.speed_m_s > share * (leg_m * gravity).sqrt();
+        let stances_are_apart =
+            found.duty_factor.map_or(flies || part_of_a_stride && is_faster_than(RUNNING_SPEED), |share| {
+                (RUNNING_DUTY_FACTOR[0]..RUNNING_DUTY_FACTOR[1]).contains(&share)
+            });
         return match found {
             _ if flies && found.leaves_with_both_feet => ActivityKind::Jump,
-            _ if runs => ActivityKind::Run,
+            _ if stances_are_apart && is_faster_than(SLOWEST_RUN) => ActivityKind::Run,
+            // Walking has no flight: a landing, or a leap from one foot.
+            _ if flies => ActivityKind::Jump,
+            _ if stances_are_apart => ActivityKind::Other,
             _ if found.rise_per_step_m > LEAST_RISER_M => ActivityKind::StairsUp,
             _ if found.rise_per_step_m < -LEAST_RISER_M => ActivityKind::StairsDown,
             _ if found.turn_rad > TURN_RAD => ActivityKind::Turn,

@@ -37,7 +37,7 @@ pub struct FeasibilityLimits {
     up: Vec3,
     /// Weight [N].
     pub(super) weight: f64,
-    /// Body mass [kg].
+    /// Mass of the body and of what it carries [kg].
     pub(super) mass: f64,
     coordinates: Vec<CoordinateLimits>,
 }
@@ -123,7 +123,7 @@ impl FeasibilityLimits {
             person: person.clone(),
             up: model.up(),
             weight: person.mass_kg * model.gravity().norm(),
-            mass: person.mass_kg,
+            mass: model.mass(),
             coordinates: model.coordinate_ids().map(of_coordinate).collect(),
         }
     }

@@ -47,10 +47,16 @@ impl FittedParameters {
     /// A checksum of these parameters: FNV-1a of their digits.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-        const PRIME: u64 = 0x0100_0000_01b3;
-        format!("{self:?}").bytes().fold(BASIS, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+        checksum(&format!("{self:?}"))
     }
+}
+
+/// FNV-1a of the bytes of a text.
+#[must_use]
+pub fn checksum(text: &str) -> u64 {
+    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    text.bytes().fold(BASIS, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
 impl Default for FittedParameters {

@@ -40,7 +40,7 @@ use crate::motion::filter::LowPass;
 use crate::spatial::{Vec3, Wrench};
 pub use deviation_calibration::{ByFifth, DeviationCalibration, DeviationScaling, scaling_at};
 use estimate::estimate;
-pub use fitted_parameters::FittedParameters;
+pub use fitted_parameters::{FittedParameters, checksum};
 pub(super) use geometry::{Geometry, GeometryFrame};
 pub use personal::{OtherPerson, PersonalErrors};
 pub use prescribed::Prescribed;

@@ -7,7 +7,7 @@
 
 use super::stance_errors::{KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
 use crate::model::{BySide, Model, Side};
-use crate::toml_reader::{Source, Table, TomlError};
+use crate::toml_reader::{Source, Table, TomlError, Value};
 use std::fmt::Write as _;
 
 /// Largest difference of mass, stature and leg length of the same person, as a share: clothes, and errors of a
@@ -32,7 +32,16 @@ pub struct PersonalErrors {
     pub errors: BySide<StanceErrors>,
     /// Of which estimate: [`FittedParameters::fingerprint`](super::FittedParameters::fingerprint).
     pub estimator: u64,
+    /// Checksum of the name of the person in the files of the trials, if they have one: [`checksum`](super::checksum).
+    pub subject: Option<u64>,
+    /// The largest mean error of a force, as a multiple of its standard deviation; both root mean squares over a
+    /// stance. Mean errors of people are within about three.
+    pub excess: f64,
 }
+
+/// Mean errors beyond so many standard deviations of the estimate are those of one person in 300, or of plates,
+/// markers or a mass that do not belong together.
+const USUAL_EXCESS: f64 = 3.0;
 
 /// A person that is not the calibrated one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -72,6 +81,18 @@ impl PersonalErrors {
         Ok(())
     }
 
+    /// Whether the mean errors are larger than those of nearly all people.
+    #[must_use]
+    pub fn is_unusual(&self) -> bool {
+        self.excess > USUAL_EXCESS
+    }
+
+    /// Whether the files name another person, by the checksum of the name.
+    #[must_use]
+    pub fn is_named_otherwise(&self, subject: Option<u64>) -> bool {
+        self.subject.zip(subject).is_some_and(|(calibrated, found)| calibrated != found)
+    }
+
     /// The errors of a foot, and how far they are trusted.
     fn of(&self, side: Side) -> (&StanceErrors, f64) {
         let other = if side == Side::Right { Side::Left } else { Side::Right };
@@ -109,6 +130,11 @@ impl PersonalErrors {
              \"{:016x}\"\n",
             self.mass_kg, self.stature_m, self.leg_length_m, self.stances.right, self.stances.left, self.estimator
         );
+        if let Some(subject) = self.subject {
+            let _ = writeln!(text, "subject = \"{subject:016x}\" # checksum of the name in the files");
+        }
+        let _ =
+            writeln!(text, "excess = {:.4} # largest mean error, in standard deviations of the estimate", self.excess);
         for (side, errors) in self.errors.iter() {
             let _ = write!(text, "\n[{side}]\n");
             let curves = errors.force.iter().chain(&errors.center);
@@ -128,7 +154,17 @@ impl PersonalErrors {
         let source = Source::new(text, DOCUMENT);
         let parsed = source.parse()?;
         let root = Table::root(&source, &parsed);
-        root.only(&[&["mass_kg", "stature_m", "leg_length_m", "stances", "estimator", "right", "left"]])?;
+        root.only(&[&[
+            "mass_kg",
+            "stature_m",
+            "leg_length_m",
+            "stances",
+            "estimator",
+            "subject",
+            "excess",
+            "right",
+            "left",
+        ]])?;
         let size = |key: &str, what: &str| root.need(key, what)?.above_zero();
         let count = "stances of the right and the left foot";
         let stances = root.need("stances", count)?;
@@ -137,8 +173,9 @@ impl PersonalErrors {
             return Err(stances.wrong("two whole numbers, one of them at least 1"));
         }
         let of_estimator = root.need("estimator", "the estimate whose errors these are, 16 hexadecimal digits")?;
-        let estimator =
-            u64::from_str_radix(of_estimator.text()?, 16).map_err(|_| of_estimator.wrong("16 hexadecimal digits"))?;
+        let hexadecimal =
+            |value: Value<'_>| u64::from_str_radix(value.text()?, 16).map_err(|_| value.wrong("16 hexadecimal digits"));
+        let subject = root.get("subject").map(hexadecimal).transpose()?;
         let foot = |side: &str| -> Result<StanceErrors, TomlError> {
             let table = root.need(side, "the curves of this foot")?.table("the curves of this foot")?;
             table.only(&[&KEYS])?;
@@ -157,7 +194,10 @@ impl PersonalErrors {
             leg_length_m: size("leg_length_m", "the length of a leg [m]")?,
             stances: BySide { right: right as usize, left: left as usize },
             errors: BySide { right: foot("right")?, left: foot("left")? },
-            estimator,
+            estimator: hexadecimal(of_estimator)?,
+            subject,
+            // Files of earlier versions do not state it.
+            excess: root.number_or("excess", 0.0)?,
         })
     }
 }

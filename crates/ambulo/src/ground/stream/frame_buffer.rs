@@ -28,17 +28,27 @@ impl FrameBuffer {
         FrameBuffer { motion, step_s: 1.0 / rate_hz, capacity, next: 0, newest_complete: None }
     }
 
-    /// Adds a frame, and drops the oldest one if the buffer is full.
-    pub fn push(&mut self, model: &Model, q: &[f64]) -> Result<(), StreamError> {
+    /// Checks a frame.
+    ///
+    /// # Errors
+    /// Another number of coordinates, an infinite value.
+    pub fn check(&self, model: &Model, q: &[f64]) -> Result<(), StreamError> {
         let (frame, expected) = (self.next, model.coordinates().len());
         if q.len() != expected {
             return Err(StreamError::Length { frame, found: q.len(), expected, model: model.name().to_owned() });
         }
-        let free = || model.coordinates().iter().zip(q).filter(|(c, _)| matches!(c.drive, Drive::Free));
-        if let Some((coordinate, found)) = free().find(|(_, x)| x.is_infinite()) {
-            return Err(StreamError::Infinite { coordinate: coordinate.name.clone(), frame, found: *found });
+        let mut free = model.coordinates().iter().zip(q).filter(|(c, _)| matches!(c.drive, Drive::Free));
+        match free.find(|(_, x)| x.is_infinite()) {
+            Some((c, found)) => Err(StreamError::Infinite { coordinate: c.name.clone(), frame, found: *found }),
+            None => Ok(()),
         }
-        if free().all(|(_, x)| x.is_finite()) {
+    }
+
+    /// Adds a frame that was checked, and drops the oldest one if the buffer is full.
+    pub fn push(&mut self, model: &Model, q: &[f64]) {
+        let frame = self.next;
+        let mut free = model.coordinates().iter().zip(q).filter(|(c, _)| matches!(c.drive, Drive::Free));
+        if free.all(|(_, x)| x.is_finite()) {
             self.newest_complete = Some(frame);
         }
         if self.motion.times.len() == self.capacity {
@@ -51,7 +61,6 @@ impl FrameBuffer {
             }
         }
         self.next += 1;
-        Ok(())
     }
 
     /// Number of frames since the newest one without a gap.
@@ -76,6 +85,12 @@ impl FrameBuffer {
         for column in self.motion.columns.iter_mut().flatten() {
             column.drain(..rows);
         }
+    }
+
+    /// Number of values of the coordinate that has the fewest, counted up to `most`; the frames if there is none.
+    pub(super) fn fewest_values(&self, most: usize) -> usize {
+        let known = |column: &Vec<f64>| column.iter().filter(|x| x.is_finite()).take(most).count();
+        self.motion.columns.iter().flatten().map(known).min().unwrap_or(self.len())
     }
 
     pub(super) fn len(&self) -> usize {

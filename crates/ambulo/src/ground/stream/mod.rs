@@ -33,7 +33,7 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model};
 use crate::motion::filter::LowPass;
 use crate::motion::gaps::LONGEST_GAP_S;
-use crate::motion::{Smoother, TimeGrid};
+use crate::motion::{LiveChecks, Smoother, TimeGrid};
 pub use error::StreamError;
 #[doc(hidden)]
 pub use frame::LoadDeviation;
@@ -102,6 +102,9 @@ pub struct Stream {
     /// Number of the next frame that may be returned.
     due: usize,
     workspace: Workspace,
+    checks: LiveChecks,
+    /// The newest frame without whole turns.
+    frame: Vec<f64>,
     findings: Findings,
 }
 
@@ -126,6 +129,8 @@ impl Stream {
         Ok(Stream {
             buffer: FrameBuffer::new(&model, rate_hz, capacity),
             workspace: Workspace::new(&model),
+            checks: LiveChecks::new(&model, rate_hz),
+            frame: Vec::with_capacity(model.coordinates().len()),
             model,
             soles,
             smoother: TailSmoother::new(smoother, rate_hz, capacity)?,
@@ -164,7 +169,11 @@ impl Stream {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn push(&mut self, q: &[f64]) -> Result<Option<StreamFrame>, StreamError> {
-        self.buffer.push(&self.model, q)?;
+        self.frame.clear();
+        self.frame.extend_from_slice(q);
+        self.buffer.check(&self.model, q)?;
+        self.checks.take(&self.model, &mut self.frame);
+        self.buffer.push(&self.model, &self.frame);
         // The gap, from one complete frame to the next, is at least one step longer than the number of missing frames.
         if self.buffer.missing() > 0 && self.buffer.time(self.buffer.missing() + 1) > LONGEST_GAP_S {
             self.buffer.clear();
@@ -215,6 +224,12 @@ impl Stream {
         &self.findings
     }
 
+    /// Doubts about the motion since its start, each once: units, jumps, angles out of range.
+    #[must_use]
+    pub fn doubts(&self) -> &Findings {
+        self.checks.findings()
+    }
+
     /// Memory of the kept frames [bytes]: constant from the first push to the last.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -226,7 +241,7 @@ impl Stream {
         self.buffer.forget_leading_gap();
         let oldest = self.buffer.next - self.buffer.len();
         self.settled.forget_before(oldest);
-        if self.buffer.len() < FEWEST_FRAMES || frame < oldest {
+        if self.buffer.fewest_values(FEWEST_FRAMES) < FEWEST_FRAMES || frame < oldest {
             return Ok(None);
         }
         let soles = both_soles(&self.model, &self.soles)?;
