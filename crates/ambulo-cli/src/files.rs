@@ -129,8 +129,22 @@ pub(crate) fn check_target(path: &Path, inputs: &[PathBuf], existing: Existing) 
     Ok(())
 }
 
+/// Refuses a file that is larger than the system allows this process (`ulimit -f`), which would end it in the middle.
+fn check_size_limit(path: &Path, bytes: &[u8]) -> Result<()> {
+    // Only Linux states the limit in a file; elsewhere there is none that matters.
+    let limits = fs::read_to_string("/proc/self/limits").unwrap_or_default();
+    let of_files = limits.lines().find_map(|line| line.strip_prefix("Max file size"));
+    let allowed = of_files.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    if let Some(allowed) = allowed.filter(|allowed| bytes.len() as u64 > *allowed) {
+        let needed = bytes.len();
+        bail!("{}: this file needs {needed} bytes; this shell allows {allowed}. hint: `ulimit -f`", path.display());
+    }
+    Ok(())
+}
+
 /// Writes a file as a whole or not at all; creates its folder if necessary.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    check_size_limit(path, bytes)?;
     // A link stays, and a device or a pipe is written to directly.
     let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if let Some(folder) = path.parent() {

@@ -3,7 +3,7 @@
 //! The library knows no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
-use ambulo::analysis::{AnalysisError, ComparisonError};
+use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
 use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
@@ -25,6 +25,9 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::PlatesTwoFeet | Code::PlatesUnassigned => {
             "`--plate 1=r` assigns the right foot to plate 1; give a standing trial with `--static`"
         }
+        Code::PlatesMirrored | Code::PlatesCornersUnclear => {
+            "`--plate 1=flip-x`, `1=flip-y`, `1=turn-90`, `1=turn-180` or `1=turn-270` correct plate 1"
+        }
         Code::ResidualLarge => RANGE,
         Code::LoadsGuessed => "`--right`, `--left` or `--loads` choose other columns",
         Code::LoadsUnderOtherFoot => {
@@ -33,6 +36,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         }
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
+        Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -56,7 +60,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
-    let mut options: Vec<String> = fields.map(|field| option(*field).to_owned()).collect();
+    let mut options: Vec<String> = fields.filter_map(|field| option(*field)).map(str::to_owned).collect();
     let wrong = error.chain().filter_map(|cause| cause.downcast_ref::<WrongFields>());
     options.extend(wrong.flat_map(|wrong| wrong.fields).map(|field| format!("`--{}`", field.replace('_', "-"))));
     let options = (!options.is_empty()).then(|| options.join(", "));
@@ -73,10 +77,10 @@ pub(crate) fn causes(error: &anyhow::Error) -> impl Iterator<Item = &(dyn Error 
     })
 }
 
-/// The option that states a field of a job.
-fn option(field: Field) -> &'static str {
-    match field {
-        Field::Recording => "the recording stands before the options",
+/// The option that states a field of a job; the recording has none.
+fn option(field: Field) -> Option<&'static str> {
+    let option = match field {
+        Field::Recording => return None,
         Field::Trial => "`--trial N|NAME|all`",
         Field::Standing => "`--static FILE`",
         Field::Model => "`--model FILE.osim`",
@@ -90,7 +94,7 @@ fn option(field: Field) -> &'static str {
         Field::Earth => "`--earth X,Y,Z`",
         Field::ForceTable => "`--grf FILE`",
         Field::Loads => "`--loads FILE`",
-        Field::Plates => "`--plate N=r|l|off`",
+        Field::Plates => "`--plate N=r|l|off|flip-x|flip-y|turn-90|turn-180|turn-270`",
         Field::AddedMass => "`--add-mass BODY:KG[:X,Y,Z]`",
         Field::Feet => "`--right BODY:PREFIX`, `--left BODY:PREFIX`",
         Field::From => "`--from T`",
@@ -102,9 +106,11 @@ fn option(field: Field) -> &'static str {
         Field::Cutoff => "`--cutoff HZ|off`",
         Field::Order => "`--order N`",
         Field::Gap => "`--max-gap S`",
+        Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::ResidualReduction => "`--consistent`",
-    }
+    };
+    Some(option)
 }
 
 fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
@@ -136,6 +142,9 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::Analysis(error) => of_analysis(error),
         StudyError::Sensors(error) => of_sensors(error),
+        StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
+            Some("`--subject NAME` chooses one of them")
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",
@@ -156,7 +165,12 @@ fn of_analysis(error: &AnalysisError) -> Option<&'static str> {
 fn of_motion(error: &MotionError) -> Option<&'static str> {
     match error {
         MotionError::NoColumn { .. } => Some("`--right` and `--left` choose other columns"),
-        MotionError::Gap { .. } | MotionError::ForceNotFinite { .. } | MotionError::FarRange { .. } => Some(RANGE),
+        MotionError::Gap { .. }
+        | MotionError::NoRows { .. }
+        | MotionError::ForceNotFinite { .. }
+        | MotionError::Outside { .. }
+        | MotionError::TooShort { .. }
+        | MotionError::FarRange { .. } => Some(RANGE),
         _ => None,
     }
 }

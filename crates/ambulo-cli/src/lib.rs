@@ -35,7 +35,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     bug_report::install();
     let args = match Args::try_parse_from(words) {
         Ok(args) => args,
-        Err(refused) => return refuse(&refused),
+        Err(refused) => return refuse(&args::with_place_of_options(refused)),
     };
     match execute(args.command) {
         Ok(Completion::Passed) => 0,
@@ -80,7 +80,8 @@ fn execute(command: Option<Command>) -> anyhow::Result<Completion> {
 fn refuse(refused: &clap::Error) -> u8 {
     // Help goes to standard output, errors to standard error; where neither can be written to, the exit code is all
     // there is.
-    let _ = refused.print();
+    let text = refused.render().to_string();
+    let _ = if text.contains(printer::is_code) { printer::refused(&text) } else { refused.print() };
     u8::try_from(refused.exit_code()).unwrap_or(2)
 }
 

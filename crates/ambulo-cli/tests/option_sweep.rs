@@ -66,7 +66,7 @@ fn forms(value_name: &str) -> &'static [&'static str] {
         "BODY:KG[:X,Y,Z]" => &["torso:#", "torso:1:#,0,0", "torso:1:0,0,#"],
         "TIME:SPEED[:DURATION]" | "TIME:LENGTH[:DURATION]" => &["#:1", "1:#", "1:1:#"],
         "TIME:CADENCE[:DURATION]" => &["#:100", "1:#", "1:100:#"],
-        "N=r|l|off" => &["#=r", "#=off"],
+        "N=r|l|off|..." => &["#=r", "#=off", "#=flip-y", "#=l+turn-90"],
         "BODY:PREFIX" => &["calcn_r:#"],
         _ => &["#"],
     }

@@ -177,6 +177,77 @@ fn columns_of_a_force_table_are_recognised_in_any_spelling_and_assigned_by_the_c
     }
 }
 
+/// Changes the vectors of every row of the table: force, point and moment of each foot.
+fn edit_vectors(bench: &Workbench, change: impl Fn(usize, [f64; 3]) -> [f64; 3]) {
+    bench.write("table.mot", bench.text("walk_grf.mot").replace("_r_", "_1_").replace("_l_", "_2_"));
+    bench.edit_rows("table.mot", |mut rows| {
+        for cells in &mut rows {
+            for vector in 0..6 {
+                let own = &mut cells[1 + 3 * vector..4 + 3 * vector];
+                let values: Vec<f64> = own.iter().map(|cell| cell.trim().parse().unwrap()).collect();
+                for (cell, value) in own.iter_mut().zip(change(vector % 3, [values[0], values[1], values[2]])) {
+                    *cell = value.to_string();
+                }
+            }
+        }
+        rows
+    });
+}
+
+#[test]
+fn axes_and_units_of_a_force_table_are_recognised_by_what_the_body_weighs() {
+    let bench = Workbench::new("table_axes");
+    stated_moments(&bench);
+    let expected = bench.table("out/moments.sto");
+    let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+    let weight_n = 9.80665 * summary["mass"]["kg"].as_f64().unwrap();
+    let scaled = |factor: [f64; 3]| move |kind: usize, v: [f64; 3]| v.map(|x| x * factor[kind]);
+    let same = |words: &[&str]| {
+        let run = bench.run(&ON_TABLE).done();
+        run.reports(words);
+        let found = bench.table("out/moments.sto");
+        for ((name, found), (_, expected)) in found.columns().zip(expected.columns()) {
+            let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-3, "{words:?} {name}: {worst} {}", run.stderr);
+        }
+    };
+    edit_vectors(&bench, |_, [x, y, z]| [x, -z, y]);
+    same(&["carry the body along z, not along y", "x forward"]);
+    // The person walks along y.
+    edit_vectors(&bench, |_, [x, y, z]| [z, x, y]);
+    same(&["carry the body along z, not along y", "y forward"]);
+    edit_vectors(&bench, |_, [x, y, z]| [-z, -x, y]);
+    same(&["carry the body along z, not along y", "-y forward"]);
+    edit_vectors(&bench, scaled([1e-3, 1.0, 1e-3]));
+    same(&["the table is in kilonewtons"]);
+    edit_vectors(&bench, scaled([1e-3, 1.0, 1.0]));
+    same(&["the table is in kilonewtons"]);
+    edit_vectors(&bench, scaled([1.0 / weight_n, 1.0, 1.0 / weight_n]));
+    same(&["the table is in body weights"]);
+    edit_vectors(&bench, |kind, [x, y, z]| [x, -z, y].map(|v| if kind == 0 { v / weight_n } else { v }));
+    same(&["the table is in body weights", "carry the body along z"]);
+    edit_vectors(&bench, scaled([1.0, 1.0, 1e3]));
+    same(&["longer than a foot; they are in N.mm"]);
+}
+
+#[test]
+fn a_mirrored_force_of_a_table_is_named_and_bad() {
+    let bench = Workbench::new("mirrored_table");
+    for (axis, word) in [(0, "the fore-aft force (x)"), (2, "the lateral force (z)")] {
+        edit_vectors(&bench, |kind, mut v| {
+            v[axis] *= if kind == 0 { -1.0 } else { 1.0 };
+            v
+        });
+        let run = bench.run(&ON_TABLE);
+        run.reports(&[word, "is mirrored", "change the sign of the columns"]);
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        assert_eq!(summary["quality"]["state"], "bad", "{}", summary["quality"]);
+        assert!(summary["quality"]["reasons"].to_string().contains("force_directions"));
+    }
+    edit_vectors(&bench, |_, v| v);
+    assert!(!bench.run(&ON_TABLE).done().stderr.contains("mirrored"));
+}
+
 #[test]
 fn one_force_may_serve_changing_feet() {
     let bench = Workbench::new("changing_feet");
@@ -266,4 +337,94 @@ fn the_filter_of_the_forces_is_chosen_and_printed() {
     for wrong in ["1e-308", "0.5", "501", "-3", "nan", "sometimes"] {
         bench.forces(&["--force-cutoff", wrong]).refused(&["from 1 to 500 Hz, `same` (as the motion) or `off`"]);
     }
+}
+
+#[test]
+fn a_stance_beside_the_plates_has_predicted_forces_that_every_table_marks() {
+    let bench = with_demo("stance_beside_plates");
+    let (all, _) = forces(&bench, &[]);
+    let (found, _) = forces(&bench, &["--plate", "2=off"]);
+    assert_eq!(found["ground"]["source"], "mixed");
+    assert!(found["ground"]["rule"].as_str().unwrap().contains("a posteriori"), "{}", found["ground"]);
+    let share = |summary: &Value, side: &str| summary["ground"]["measured_share"][side].as_f64().unwrap();
+    assert!(share(&found, "right") < share(&all, "right") - 0.1, "{} of {}", found["ground"], all["ground"]);
+    assert!((share(&found, "left") - share(&all, "left")).abs() < 0.02, "{} of {}", found["ground"], all["ground"]);
+    let stances = rows(&bench, "stances.csv");
+    let of = |source: &str| stances.iter().filter(|row| row[3] == source).count();
+    assert!(of("plate 1") == 1 && of("plate 2") == 0 && of("predicted") >= 1, "{stances:?}");
+    let lost =
+        stances.iter().find(|row| row[0] == "r" && row[3] == "predicted" && row[1].parse::<f64>().unwrap() > 1.0);
+    let lost = lost.unwrap_or_else(|| panic!("{stances:?}"));
+    let middle = 0.5 * (lost[1].parse::<f64>().unwrap() + lost[2].parse::<f64>().unwrap());
+    for name in ["moments.sto", "powers.sto", "reactions.sto", "grf.mot"] {
+        let table = bench.table(&format!("out/{name}"));
+        let frame = table.times().unwrap().partition_point(|time| *time < middle);
+        assert!((table.column("ground_source_r").unwrap()[frame] - 1.0).abs() < 1e-9, "{name}");
+    }
+    let table = bench.table("out/grf.mot");
+    let frame = table.times().unwrap().partition_point(|time| *time < middle);
+    assert!(table.column("ground_force_r_vy").unwrap()[frame] > 300.0, "the leg carries the body");
+    assert!(bench.text("out/clinical.csv").lines().next().unwrap().ends_with("ground_source_r,ground_source_l"));
+    let run = bench.run(&["report", "out", "-o", "again.html"]).done();
+    assert!(run.stdout.contains("again.html") && bench.text("again.html").contains("leg's loaded time"));
+}
+
+#[test]
+fn tables_of_a_walk_with_all_loads_are_not_marked() {
+    let bench = Workbench::new("all_loads");
+    let run = bench.forces(&RAW).done();
+    assert!(!run.stdout.contains("  loads "), "{}", run.stdout);
+    assert_eq!(bench.json("out/summary.json")["ground"]["source"], "measured");
+    assert!(bench.table("out/moments.sto").column("ground_source_r").is_none());
+    let stances = rows(&bench, "stances.csv");
+    assert!(!stances.is_empty() && stances.iter().all(|row| row[3] == "table"), "{stances:?}");
+}
+
+#[test]
+fn cells_that_depend_on_an_unknown_load_are_empty() {
+    let Some(data) = crate::shared_data::data() else { return };
+    let bench = Workbench::empty("unknown_load");
+    let folder = data.join("kuleuven-walk-squat");
+    bench.write("squat.trc", fs::read(folder.join("markers_Squat2.trc")).unwrap());
+    bench.write("squat_grf.mot", fs::read(folder.join("grf_Squat2.mot")).unwrap());
+    bench.edit_rows("squat_grf.mot", |mut rows| {
+        rows.iter_mut().for_each(|cells| (7..13).for_each(|column| cells[column] = "0".to_owned()));
+        rows
+    });
+    let run = bench.run(&["forces", "squat.trc", "--grf", "squat_grf.mot", "--mass", "62.7", "-o", "out"]);
+    run.warned(&["the load of the right foot", "cannot be predicted reliably"]);
+    assert!(run.stdout.contains("measured in 0 % of the right leg's loaded time"), "{}", run.stdout);
+    let clinical = bench.text("out/clinical.csv");
+    let head: Vec<&str> = clinical.lines().next().unwrap().split(',').collect();
+    let cell = |name: &str| {
+        let column = head.iter().position(|known| *known == name).unwrap();
+        clinical.lines().nth(200).unwrap().split(',').nth(column).unwrap().to_owned()
+    };
+    assert_eq!((cell("knee_flexion_moment_r").as_str(), cell("ground_force_vertical_r").as_str()), ("", ""));
+    assert!(!cell("knee_flexion_r").is_empty() && !cell("knee_flexion_moment_l").is_empty());
+    bench.run(&["report", "out", "-o", "again.html"]).done();
+}
+
+#[test]
+fn a_cycle_has_one_stance_also_if_a_stance_in_it_was_not_measured() {
+    let bench = Workbench::new("stance_not_measured");
+    bench.forces(&RAW).done();
+    let strikes: Vec<f64> = rows(&bench, "events.csv")
+        .iter()
+        .filter(|row| row[0] == "r" && row[1] == "strike")
+        .map(|row| row[2].parse().unwrap())
+        .collect();
+    let of_right = |bench: &Workbench| cycles(bench).into_iter().filter(|(side, _)| side == "r").count();
+    let whole = of_right(&bench);
+    assert!(strikes.len() >= 3 && whole + 1 == strikes.len(), "{strikes:?}");
+    bench.edit_rows("walk_grf.mot", |mut rows| {
+        let is_inside =
+            |cells: &[String]| (cells[0].parse::<f64>().unwrap() - strikes[1]).abs() < 0.45 * (strikes[1] - strikes[0]);
+        let lost = |cells: &[String]| is_inside(cells) && cells[0].parse::<f64>().unwrap() > strikes[1] - 0.05;
+        rows.iter_mut().filter(|cells| lost(cells)).for_each(|cells| cells[1..4].fill("0".to_owned()));
+        rows
+    });
+    let run = bench.forces(&RAW);
+    assert!(run.stdout.contains("of the right leg's loaded time"), "{}", run.stdout);
+    assert_eq!(of_right(&bench), whole - 2, "the cycles before and after the stance without a load");
 }

@@ -286,8 +286,8 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
         assert!(worst < 1e-7, "{name}: {worst}");
     }
     bench.forces(&["--from", "5", "--to", "6"]).refused(&[
-        "the range from 5 s to 6 s has 0 frames",
-        "hint: motion and forces are both known from 0.000 s to 2.900 s",
+        "the range from 5 s to 6 s is outside of the recorded time, 0.000 s to 2.900 s",
+        "hint: choose a range inside the recorded time",
     ]);
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["the start, 2 s, is after the end, 1 s"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);

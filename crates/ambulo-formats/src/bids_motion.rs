@@ -12,6 +12,7 @@
 //! Pinned by: tests/bids_motions.rs
 
 use crate::error::{Error, quoted};
+use crate::plain_text::utf8;
 
 /// Largest number of channels.
 pub const MAX_CHANNELS: usize = 20_000;
@@ -53,8 +54,9 @@ impl BidsMotion {
     /// # Errors
     /// Channels without name or type, rows of another length, values that are no numbers.
     pub fn read(motion: &[u8], channels: &[u8]) -> Result<BidsMotion, Error> {
-        let (channels, rate_hz) = read_channels(channels)?;
-        let columns = read_columns(motion, channels.len())?;
+        let named = |bytes, error: Error| error.or_other_content(bytes, "a motion of a BIDS data set (.tsv)");
+        let (channels, rate_hz) = read_channels(channels).map_err(|error| named(channels, error))?;
+        let columns = read_columns(motion, channels.len()).map_err(|error| named(motion, error))?;
         Ok(BidsMotion { rate_hz, channels, columns })
     }
 
@@ -67,7 +69,8 @@ impl BidsMotion {
 
 /// The lines of a file with their numbers, counted from 1; empty ones are left out.
 fn lines(bytes: &[u8]) -> Vec<(usize, String)> {
-    let text = String::from_utf8_lossy(bytes);
+    let bytes = utf8(bytes);
+    let text = String::from_utf8_lossy(&bytes);
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     lines.filter(|(_, line)| !line.trim().is_empty()).map(|(k, line)| (k + 1, line.to_owned())).collect()
 }

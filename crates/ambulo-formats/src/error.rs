@@ -12,6 +12,16 @@ pub enum Error {
         /// Beginning of a valid file.
         expected: &'static str,
     },
+    /// The content is of another format than the name of the file states.
+    #[error("the content is {found}; expected {expected}. hint: {remedy}")]
+    OtherContent {
+        /// What the content is.
+        found: &'static str,
+        /// The format that is read.
+        expected: &'static str,
+        /// How to get it.
+        remedy: &'static str,
+    },
     /// A line of a text file does not follow the format.
     #[error("line {line}: found {found}; expected {expected}")]
     Line {

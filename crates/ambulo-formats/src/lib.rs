@@ -23,6 +23,7 @@ pub mod b3d;
 pub mod bids_motion;
 pub mod bvh;
 pub mod c3d;
+mod content;
 pub mod error;
 pub mod external_loads;
 pub mod mvnx;
@@ -31,11 +32,13 @@ pub mod number;
 pub mod osim;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+mod plain_text;
 pub mod setup;
 pub mod table;
 pub mod trc;
 mod xml;
 
+pub use content::content;
 pub use error::{Error, Remark};
 
 /// For the tests of this crate.

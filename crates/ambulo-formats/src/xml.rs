@@ -1,6 +1,8 @@
 //! Access to XML documents for the readers, with errors that name line and element.
 
+use crate::content;
 use crate::error::{Error, quoted};
+use crate::plain_text::decode;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Largest number of nodes that is read; a full-body model has some 10,000. The limit bounds memory on
@@ -14,6 +16,10 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
 
 /// Parses a document of at most `nodes` nodes.
 pub(crate) fn parse_up_to(text: &str, nodes: u32) -> Result<Document<'_>, Error> {
+    parse_text(text, nodes).map_err(|error| error.or_other_content(text.as_bytes(), content::XML))
+}
+
+fn parse_text(text: &str, nodes: u32) -> Result<Document<'_>, Error> {
     if !text.trim_start().starts_with('<') {
         let found = quoted(text.trim_start().lines().next().unwrap_or_default());
         return Err(Error::Line { line: 1, found, expected: "an XML document, which begins with `<`".into() });
@@ -26,8 +32,45 @@ pub(crate) fn parse_up_to(text: &str, nodes: u32) -> Result<Document<'_>, Error>
             return Err(Error::Xml { reason });
         }
     }
+    refuse_many_attributes(text)?;
     let options = ParsingOptions { allow_dtd: false, nodes_limit: nodes, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
+}
+
+/// Largest number of attributes of an element. The parser compares each with all others.
+const MAX_ATTRIBUTES: usize = 1000;
+
+/// Refuses an element with very many attributes, in one pass: comments, sections of text and instructions are left out.
+fn refuse_many_attributes(text: &str) -> Result<(), Error> {
+    const OTHERS: [(&str, &str); 3] = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        if let Some((begin, end)) = OTHERS.iter().find(|(begin, _)| rest.starts_with(begin)) {
+            let after = &rest[begin.len()..];
+            rest = after.find(end).map_or("", |at| &after[at + end.len()..]);
+            continue;
+        }
+        let (mut quote, mut attributes, mut length) = (None, 0, rest.len());
+        for (at, byte) in rest.bytes().enumerate() {
+            match (byte, quote) {
+                (b'"' | b'\'', None) => quote = Some(byte),
+                (byte, Some(open)) if byte == open => quote = None,
+                (b'=', None) => attributes += 1,
+                (b'>', None) => {
+                    length = at;
+                    break;
+                }
+                _ => {}
+            }
+        }
+        if attributes > MAX_ATTRIBUTES {
+            let reason = format!("an element with {attributes} attributes; expected at most {MAX_ATTRIBUTES}");
+            return Err(Error::Xml { reason });
+        }
+        rest = &rest[length..];
+    }
+    Ok(())
 }
 
 /// How often a byte occurs. Short sums of single bytes are computed side by side.
@@ -46,15 +89,6 @@ pub(crate) fn document_text(bytes: &[u8]) -> String {
         [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
         _ => decode(bytes),
-    }
-}
-
-/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.
-pub(crate) fn decode(bytes: &[u8]) -> String {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
     }
 }
 

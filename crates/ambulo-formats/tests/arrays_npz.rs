@@ -67,8 +67,8 @@ fn damaged_archives_are_refused_with_the_reason() {
     flipped[place] ^= 1;
     let refused = Npz::read(&flipped).unwrap_err().to_string();
     assert!(refused.contains("checksum in `poses.npy`"), "{refused}");
-    let text = Npz::read(b"HIERARCHY").unwrap_err().to_string();
-    assert!(text.contains("found the bytes 48 49 45 52; expected a ZIP archive"), "{text}");
+    let text = Npz::read(b"SKELETONS").unwrap_err().to_string();
+    assert!(text.contains("found the bytes 53 4b 45 4c; expected a ZIP archive"), "{text}");
     assert!(matches!(Npz::read(&[]), Err(Error::Empty { .. })));
 }
 
@@ -83,4 +83,24 @@ fn an_archive_that_would_unpack_to_terabytes_is_refused_before() {
     }
     let refused = Npz::read(&bytes).unwrap_err().to_string();
     assert!(refused.contains("when `poses.npy` is unpacked; expected at most 1073741824"), "{refused}");
+}
+
+#[test]
+fn only_wanted_arrays_are_unpacked_and_shapes_are_compared_before() {
+    let array = |shape: &[usize]| Array {
+        shape: shape.to_vec(),
+        data: Data::Numbers((0..shape.iter().product()).map(|k| k as f64).collect()),
+    };
+    let npz = Npz { arrays: vec![("large".into(), array(&[400, 5])), ("small".into(), array(&[2]))] };
+    let bytes = npz.write().unwrap();
+    let read = Npz::read_named(&bytes, |name| name == "small").unwrap();
+    assert_eq!(read.array("small"), npz.array("small"));
+    assert_eq!(read.array("large").unwrap(), &Array { shape: vec![400, 5], data: Data::Numbers(Vec::new()) });
+    assert_eq!(Npz::shapes(&bytes).unwrap().array("small").unwrap().numbers(), Some(&[][..]));
+    // A shape that is not that of the elements is found without them.
+    let mut changed = bytes.clone();
+    let place = changed.windows(8).position(|eight| eight == b"(400,5,)").unwrap();
+    changed[place + 1] = b'9';
+    let refused = Npz::shapes(&changed).unwrap_err().to_string();
+    assert!(refused.contains("16000 bytes of elements of the shape [900, 5] in `large.npy`"), "{refused}");
 }

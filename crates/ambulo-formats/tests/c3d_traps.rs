@@ -504,11 +504,49 @@ fn other_files_are_refused() {
     let error = |bytes: &[u8]| C3d::read(bytes).unwrap_err().to_string();
     assert_eq!(error(b""), "the file is empty; expected a C3D file, whose second byte is the key 80 (0x50)");
     assert_eq!(
-        error(b"PathFileType\t4"),
+        error(b"Path\t4"),
         "byte 1: found key 97; expected the key 80 (0x50) of a C3D file; the file may have another format"
     );
     assert_eq!(error(&[2, 80, 0]), "the file ends after 3 bytes; expected a header of 512 bytes. Is it truncated?");
     let mut bytes = File::with_words(&[0.0]).bytes();
     bytes[0] = 1;
     assert!(matches!(C3d::read(&bytes), Err(Error::Byte { offset: 0, .. })));
+}
+
+#[test]
+fn a_record_whose_length_is_in_the_other_byte_order_is_read_and_named() {
+    let texts = [&[(-1_i8).cast_unsigned(), 2, 2, 2][..], b"abcd", &[0]].concat();
+    let offset = texts.len() as u16 + 2;
+    let with = |offset: u16, body: &[u8]| {
+        let mut file = File::with_words(&[0.0]);
+        file.group("MADE", 5).linked(4, b"TEXT", 5, offset, body).texts(5, "LAST", &["end"]);
+        read(&file)
+    };
+    let (right, none) = with(offset, &texts);
+    let (swapped, remarks) = with(offset.swap_bytes(), &texts);
+    assert_eq!(swapped.parameters, right.parameters);
+    assert_eq!(remarks.len(), none.len() + 1, "{remarks:?}");
+    let said = remarks.iter().find(|remark| remark.contains("`TEXT`")).unwrap();
+    assert!(said.contains(&format!("states {} bytes and has {offset}", offset.swap_bytes())), "{said}");
+    // Numbers of the record are in the order in which they are usual, the other one if both are.
+    let numbers = |values: [i16; 2], bytes: fn(i16) -> [u8; 2]| {
+        let body = [&[2, 1, 2][..], &values.map(bytes).concat(), &[0]].concat();
+        let (record, _) = with((body.len() as u16 + 2).swap_bytes(), &body);
+        record.parameters.get("MADE", "TEXT").unwrap().numbers().unwrap().to_vec()
+    };
+    assert_eq!(numbers([3, 7], i16::to_le_bytes), [3.0, 7.0]);
+    assert_eq!(numbers([3, 7], i16::to_be_bytes), [3.0, 7.0]);
+}
+
+#[test]
+fn the_case_of_a_swapped_length_has_the_points_of_the_whole_recording() {
+    let Some(folder) = crate::shared_data::data() else { return };
+    let read = |name: &str| C3d::read(&std::fs::read(folder.join(name)).unwrap()).unwrap();
+    let (found, remarks) = read("cases/mips-record-with-swapped-length/walk.c3d");
+    let (whole, _) = read("c3d-format-variants/Eb015si.c3d");
+    let positions = |c3d: &C3d| -> Vec<u64> {
+        c3d.points.iter().flat_map(|point| point.positions.as_flattened()).map(|x| x.to_bits()).collect()
+    };
+    assert_eq!(positions(&found), positions(&whole));
+    assert!(remarks.iter().any(|remark| remark.message.contains("in the other byte order")), "{remarks:?}");
 }

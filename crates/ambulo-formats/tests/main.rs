@@ -26,10 +26,12 @@ mod motions_mvnx;
 mod numbers;
 mod orientation_tables;
 mod osim_write;
+mod other_contents;
 #[cfg(feature = "parquet")]
 mod parquet_tables;
 mod real_files;
 mod setups;
 mod skeletons;
+mod spreadsheets;
 mod subjects_b3d;
 mod tables;

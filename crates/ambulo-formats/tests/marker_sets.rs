@@ -106,7 +106,7 @@ fn refusals_name_line_marker_and_what_is_missing() {
             ["<ScaleTool>", "a <MarkerSet>", ""],
         ),
         (refusal("<MarkerSet><objects/></MarkerSet>"), ["no <Marker>", "at least one", ""]),
-        (refusal("PathFileType 4"), ["line 1", "`PathFileType 4`", "an XML document"]),
+        (refusal("PathFileType 4"), ["a marker file (.trc)", "expected an XML document", ""]),
         (refusal(" \n"), ["empty", "<MarkerSet>", ""]),
     ] {
         assert!(words.iter().all(|word| message.contains(word)), "{words:?} are not all in: {message}");

@@ -95,10 +95,10 @@ fn storage_files_have_the_stated_size_and_unit() {
     for (path, rows, columns, in_degrees) in [
         ("opensim-gait2392-subject01/subject01_walk1_ik.mot", 211, 24, Some(true)),
         ("opensim-gait2392-subject01/subject01_walk1_grf.mot", 1501, 19, Some(true)),
-        ("opensim-gait2392-subject01/core-id-test/subject01_walk1_grf.mot", 9009, 19, None),
+        ("opensim-gait2392-subject01/core-id-test/subject01_walk1_grf.mot", 9009, 19, Some(true)),
         ("opensim-gait2392-subject01/InverseDynamicsOutput.sto", 73, 24, Some(false)),
         ("opensim-rajagopal-walk/coordinates.sto", 1350, 32, Some(false)),
-        ("opensim-rajagopal-run/grf_run.mot", 5091, 19, None),
+        ("opensim-rajagopal-run/grf_run.mot", 5091, 19, Some(true)),
     ] {
         let table = read(&folder.join(path), Table::read_storage);
         assert_eq!((table.rows(), table.names().len(), table.in_degrees), (rows, columns, in_degrees), "{path}");

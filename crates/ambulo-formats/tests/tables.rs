@@ -49,7 +49,7 @@ fn the_header_of_simm_is_read() {
                      time\t   hip_flexion_r\t   pelvis_ty\n0\t-12.5\t0.93\n0.01\t-12.25\t0.94\n";
     assert_is_version_1_content(text);
     let (table, _) = storage(text);
-    assert_eq!((table.name.as_str(), table.in_degrees), ("grf.mot", None));
+    assert_eq!((table.name.as_str(), table.in_degrees), ("grf.mot", Some(true)));
 }
 
 #[test]

@@ -89,6 +89,7 @@ impl Given {
             "mass" => job.size.mass_kg = Some(given.number()?),
             "height" => job.size.height_m = Some(given.number()?),
             "trial" => job.trial = Some(given.text()?),
+            "subject" => job.subject = Some(given.text()?),
             "figure" => job.segments = given.parsed()?,
             "markers" => job.markers = Some(given.path()?.display().to_string()),
             "right" => job.forces.right = Some(given.parsed()?),
@@ -127,6 +128,7 @@ impl Given {
             "filter" => settings.filter = given.one_of(&Filter::ALL)?,
             "cutoff" => settings.cutoff = Some(given.parsed()?),
             "force_cutoff" => settings.force_cutoff = Some(given.parsed()?),
+            "force_delay" => settings.force_delay_s = given.number()?,
             "order" => settings.order = given.parsed()?,
             "consistent" => {
                 settings.residual_reduction = match given.value.cast::<PyBool>() {

@@ -19,7 +19,7 @@ STORAGE = {
     "reactions": "reactions.sto",
     "grf": "grf.mot",
 }
-CSV = {"cycles": "cycles.csv", "events": "events.csv", "times_and_distances": "times_and_distances.csv"}
+CSV = {"cycles": "cycles.csv", "events": "events.csv", "stances": "stances.csv", "times_and_distances": "times_and_distances.csv"}
 
 
 def storage(path: Path) -> tuple[list[str], np.ndarray]:
@@ -166,3 +166,20 @@ def test_a_walk_a_scene_and_a_sweep_have_the_tables_of_the_command(tmp_path):
     swept = ambulo.sweep(mass=[75])
     assert swept.table("walks")["mass_kg"][0] == 75
     assert len(swept.table("sweep")) == 202
+
+
+def test_a_mean_over_the_cycle_has_the_measured_stances_only():
+    from types import SimpleNamespace
+
+    from ambulo._plot import _strides
+
+    events = {"side": ["r"] * 4, "event": ["strike"] * 4, "time": [0.0, 1.0, 2.0, 3.0]}
+    sources = ["predicted", "plate 1", "unknown"]
+    stances = {"side": ["r"] * 3, "start": [0.0, 1.0, 2.0], "end": [0.6, 1.6, 2.6], "source": sources}
+    result = SimpleNamespace(events=events, stances=stances)
+    assert _strides(result, "r", depends_on_forces=True) == ([(1.0, 2.0)], False)
+    assert len(_strides(result, "r", depends_on_forces=False)[0]) == 3
+    stances["source"] = ["predicted", "predicted", "unknown"]
+    assert _strides(result, "r", depends_on_forces=True) == ([(0.0, 1.0), (1.0, 2.0)], True)
+    result.stances = None
+    assert len(_strides(result, "r", depends_on_forces=True)[0]) == 3

@@ -13,9 +13,10 @@
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;
 use ambulo::ground::feet;
+use ambulo::ground::stances::StanceSource;
 use ambulo::kinematics::{ClinicalAngles, clinical_angles};
 use ambulo::model::anatomy::{PelvicFrame, PelvicFrameError};
-use ambulo::model::{CoordinateId, Model, Side};
+use ambulo::model::{BySide, CoordinateId, Model, Side};
 use ambulo::study::{ForceOrigin, Outcome, Tracking};
 use ambulo_formats::table::{Table, TableRows};
 use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
@@ -37,8 +38,9 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
     let table = move || {
-        let curves = Curves::of(&outcome.body, &outcome.analysis, angles.as_ref());
-        Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", curves.columns())?)))
+        let curves = Curves::of(&outcome.body, outcome.complete(), angles.as_ref()).without(&outcome.not_measured);
+        let columns = curves.columns(outcome.load_sources().as_ref());
+        Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", columns)?)))
     };
     (OutputFile::csv_by(CLINICAL, table), convention)
 }
@@ -74,6 +76,8 @@ pub(crate) struct Curves<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
     angles: Option<&'a ClinicalAngles>,
+    /// Coordinates whose angles, moments and powers are no results.
+    not_measured: &'a [CoordinateId],
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
     /// The mass that moments, powers and ground forces are divided by [kg].
@@ -87,7 +91,12 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, ground, mass_kg: analysis.mass.kg }
+        Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
+    }
+
+    /// The same without the quantities of coordinates that are not measured.
+    pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
+        Curves { not_measured, ..self }
     }
 
     /// The same per another mass [kg], such as that of the one body of several trials.
@@ -95,13 +104,19 @@ impl<'a> Curves<'a> {
         Curves { mass_kg, ..self }
     }
 
-    fn columns(&self) -> Vec<(String, Vec<f64>)> {
+    /// `sources` are those of the loads ([`Outcome::load_sources`]): what depends on an unknown load is not a number.
+    fn columns(&self, sources: Option<&BySide<Vec<f64>>>) -> Vec<(String, Vec<f64>)> {
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
+            let of_side = sources.filter(|_| quantity.group != ClinicalGroup::Kinematics);
             for side in Side::BOTH {
-                columns.extend(self.values(&quantity, side).map(|values| (quantity.clinical_column(side), values)));
+                let known = |values: Vec<f64>| known(values, of_side.map(|sources| &*sources[side]));
+                let values = self.values(&quantity, side).map(known);
+                columns.extend(values.map(|values| (quantity.clinical_column(side), values)));
             }
         }
+        let mark = |side: Side| Some((format!("ground_source_{}", side.letter()), sources?[side].clone()));
+        columns.extend(Side::BOTH.into_iter().filter_map(mark));
         columns
     }
 
@@ -116,8 +131,17 @@ impl<'a> Curves<'a> {
         clinical_quantities(&ClinicalNames::of_model(self.model), |name| names.contains(name))
     }
 
-    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it.
+    /// Whether a quantity follows from a coordinate that is not measured.
+    fn is_unmeasured(&self, quantity: &ClinicalQuantity, side: Side) -> bool {
+        self.coordinate(quantity, side).is_some_and(|id| self.not_measured.contains(&id))
+    }
+
+    /// A quantity of a side over the frames, in clinical signs and units; `None` if the body lacks it, or if it is not
+    /// measured.
     pub(crate) fn values(&self, quantity: &ClinicalQuantity, side: Side) -> Option<Vec<f64>> {
+        if self.is_unmeasured(quantity, side) {
+            return None;
+        }
         let factor = quantity.factor(self.mass_kg, side);
         let scaled = |values: &[f64], factor: f64| values.iter().map(|x| factor * x).collect();
         let forces = &self.analysis.forces;
@@ -149,6 +173,16 @@ impl<'a> Curves<'a> {
         let is_own = quantity.central || self.model.anatomy().coordinate_side(id) == Some(side);
         is_own.then_some(id)
     }
+}
+
+/// Values that depend on the load of a foot, without those of unknown loads.
+fn known(mut values: Vec<f64>, sources: Option<&[f64]>) -> Vec<f64> {
+    let unknown = StanceSource::Unknown.number();
+    let is_unknown = |source: &f64| source.total_cmp(&unknown).is_eq();
+    for (value, _) in values.iter_mut().zip(sources.unwrap_or_default()).filter(|(_, source)| is_unknown(source)) {
+        *value = f64::NAN;
+    }
+    values
 }
 
 /// An angle of pelvis or hip in the clinical convention [deg], for the panel's side; `None` for other quantities.

@@ -20,6 +20,8 @@ pub const GROUND_MEASURED: &str = "grf_measured.mot";
 pub const EXTERNAL_LOADS: &str = "external_loads.xml";
 /// Foot strikes and foot offs.
 pub const EVENTS: &str = "events.csv";
+/// Stances with the source of their loads.
+pub const STANCES: &str = "stances.csv";
 /// Curves over gait cycles.
 pub const CYCLES: &str = "cycles.csv";
 /// Clinical curves.

@@ -1,8 +1,10 @@
 //! Makes the files of a run: names and contents.
 
 use crate::cycle_table::{self, CycleRow};
+use crate::tables::LoadSources;
 use crate::{
-    CYCLES, EVENTS, EXTERNAL_LOADS, GROUND, KINEMATICS, Keep, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, REACTIONS, tables,
+    CLINICAL, CYCLES, EVENTS, EXTERNAL_LOADS, GROUND, KINEMATICS, Keep, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, REACTIONS,
+    tables,
 };
 use ambulo::analysis::{Analysis, Event};
 use ambulo::model::{ExportError, Model, to_osim};
@@ -251,7 +253,9 @@ fn check_table(name: &str, table: &TableRows<'_>) -> Result<(), Error> {
             expected: "one row or more".into(),
         });
     }
-    match table.first_not_finite() {
+    // An unknown value has an empty cell.
+    let is_gap = |value: f64| name == CLINICAL && value.is_nan();
+    match table.first_not_finite().filter(|(_, _, value)| !is_gap(*value)) {
         Some((column, row, found)) => Err(not_finite(name, column, row, found)),
         None => Ok(()),
     }
@@ -283,17 +287,36 @@ pub fn output_files<'a>(
     device: Option<&'a [Vec<f64>]>,
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
+    files_of(model, analysis, device, &None, keep)
+}
+
+/// Makes the rows of a table that has no word for missing, with the sources of the loads.
+type Marked<'a> = Box<dyn Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Send + Sync + 'a>;
+
+/// As [`output_files`], with the sources of the loads in tables that have no word for missing.
+pub(crate) fn files_of<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    device: Option<&'a [Vec<f64>]>,
+    sources: &LoadSources,
+    keep: &Keep,
+) -> Result<Vec<OutputFile<'a>>, Error> {
+    let marked = |name: &str, make: Marked<'a>| {
+        let sources = sources.clone();
+        OutputFile::storage_by(name, move || make(&sources))
+    };
     let mut files = vec![
         OutputFile::storage_by(KINEMATICS, || tables::kinematics(model, analysis)),
-        OutputFile::storage_by(MOMENTS, || tables::moments(model, analysis, None)),
-        OutputFile::storage_by(POWERS, || tables::powers(model, analysis)),
-        OutputFile::storage_by(REACTIONS, || tables::reactions(model, analysis)),
+        marked(MOMENTS, Box::new(|sources| tables::moments(model, analysis, None, sources))),
+        marked(POWERS, Box::new(|sources| tables::powers(model, analysis, sources))),
+        marked(REACTIONS, Box::new(|sources| tables::reactions(model, analysis, sources))),
     ];
     if device.is_some() {
-        files.push(OutputFile::storage_by(MOMENTS_BIOLOGICAL, move || tables::moments(model, analysis, device)));
+        let make = move |sources: &LoadSources| tables::moments(model, analysis, device, sources);
+        files.push(marked(MOMENTS_BIOLOGICAL, Box::new(make)));
     }
     if !analysis.ground.bodies.is_empty() {
-        files.push(OutputFile::storage_by(GROUND, || tables::ground(model, analysis)));
+        files.push(marked(GROUND, Box::new(|sources| tables::ground(model, analysis, sources))));
         files.push(OutputFile::new(EXTERNAL_LOADS, tables::external_loads(model, analysis).write()));
         files.push(OutputFile::events(&analysis.events)?);
     }

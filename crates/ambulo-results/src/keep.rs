@@ -1,6 +1,6 @@
 //! Which outputs of a run are written.
 
-use crate::{CLINICAL, CYCLES, EVENTS, EXTERNAL_LOADS, PAGE, SHAPES, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
+use crate::{CLINICAL, CYCLES, EVENTS, EXTERNAL_LOADS, PAGE, SHAPES, STANCES, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
 
 /// The outputs that a run writes, chosen by name: all of them, or those listed. The summary is always written.
 ///
@@ -19,7 +19,7 @@ pub struct Keep(Option<Vec<String>>);
 
 impl Keep {
     /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
-    pub const OF_RUNS: [&'static str; 20] = [
+    pub const OF_RUNS: [&'static str; 21] = [
         "report",
         "figures",
         "tables",
@@ -35,6 +35,7 @@ impl Keep {
         "grf_sd",
         "grf_measured",
         "events",
+        "stances",
         "cycles",
         "clinical",
         "times_and_distances",
@@ -102,6 +103,7 @@ fn output(file: &str) -> &str {
         SUMMARY => "summary",
         TIMINGS => "timings",
         EVENTS => "events",
+        STANCES => "stances",
         CYCLES => "cycles",
         CLINICAL => "clinical",
         TIMES_AND_DISTANCES => "times_and_distances",

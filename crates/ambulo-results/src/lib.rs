@@ -32,8 +32,8 @@ pub use cycle_table::{CycleRow, cycle_rows};
 pub use file_names::{
     BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND,
     GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS,
-    REFERENCE_GROUP, SCENE_REACTIONS, SESSION_PAGE, SHAPES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS,
-    VALIDATION_PAGE, WALKS,
+    REFERENCE_GROUP, SCENE_REACTIONS, SESSION_PAGE, SHAPES, STANCES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES,
+    TIMINGS, VALIDATION_PAGE, WALKS,
 };
 pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
@@ -49,14 +49,14 @@ pub use scene_summary::{
 pub use scene_tables::SceneTables;
 pub use sound::{EXPECTED, is_sound};
 pub use state_table::states_csv;
-pub use stream_columns::{stream_columns, stream_row};
+pub use stream_columns::{columns_of_predictions, stream_columns, stream_row};
 pub use subject_summary::{
     EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
     SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, PeakSummary, ResidualSummary, Summary,
-    outcome_summary,
+    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, MeasuredShare, PeakSummary,
+    ResidualSummary, Summary, outcome_summary,
 };
 pub use tables::ground_columns;
 pub use timings::Timings;

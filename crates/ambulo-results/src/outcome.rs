@@ -1,18 +1,24 @@
 //! Makes tables from an outcome of `ambulo::study`.
 
-use crate::files::{OutputFile, output_files};
+use crate::files::{OutputFile, files_of};
 use crate::prediction_files::prediction_files;
+use crate::tables::stances_csv;
 use crate::walking_summary::WalkingSummary;
-use crate::{Keep, TIMES_AND_DISTANCES};
+use crate::{Keep, STANCES, TIMES_AND_DISTANCES};
 use ambulo::study::{Outcome, PredictedGround};
 use ambulo_formats::Error;
+use std::sync::Arc;
 
 /// The tables of a run that `keep` includes, also those of a prediction.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.
 pub fn outcome_tables<'a>(outcome: &'a Outcome, keep: &Keep) -> Result<Vec<OutputFile<'a>>, Error> {
-    let mut files = output_files(&outcome.body, &outcome.analysis, outcome.device.as_deref(), keep)?;
+    let sources = outcome.load_sources().map(Arc::new);
+    let mut files = files_of(&outcome.body, outcome.complete(), outcome.device.as_deref(), &sources, keep)?;
+    if keep.includes(STANCES) && !outcome.stances.is_empty() {
+        files.push(OutputFile::new(STANCES, stances_csv(&outcome.stances).into_bytes()));
+    }
     let walking = WalkingSummary::of(&outcome.times_and_distances);
     if keep.includes(TIMES_AND_DISTANCES) && !walking.quantities.is_empty() {
         files.push(walking.file()?);

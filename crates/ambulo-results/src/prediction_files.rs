@@ -24,7 +24,7 @@ pub(crate) fn prediction_files<'a>(
     };
     let mut files = vec![OutputFile::storage_by(GROUND_SD, deviations)];
     if let Some(measured) = measured {
-        files.push(OutputFile::storage_by(GROUND_MEASURED, move || tables::ground(model, measured)));
+        files.push(OutputFile::storage_by(GROUND_MEASURED, move || tables::ground(model, measured, &None)));
     }
     files.retain(|file| keep.includes(&file.name));
     files

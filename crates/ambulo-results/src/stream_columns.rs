@@ -3,7 +3,7 @@
 use crate::prediction_files::deviation_columns;
 use crate::tables::ground_columns;
 use crate::units::unit_of;
-use crate::{GROUND, GROUND_SD, MOMENTS};
+use crate::{GROUND, GROUND_MEASURED, GROUND_SD, MOMENTS};
 use ambulo::ground::BodyForces;
 use ambulo::ground::stream::{FootLoad, StreamFrame};
 use ambulo::model::{Model, Side};
@@ -20,6 +20,19 @@ pub fn stream_columns(model: &Model) -> Vec<(String, &'static str)> {
         (name, unit)
     };
     ground.chain(deviations).chain(moments).map(with_unit).collect()
+}
+
+/// File, name and unit of the columns of the tables that only a run with predicted ground forces writes.
+#[must_use]
+pub fn columns_of_predictions(model: &Model) -> Vec<(&'static str, String, &'static str)> {
+    let no_foot: [(Side, BodyForces); 0] = [];
+    let deviations = deviation_columns(&[], 0).into_iter().map(|(name, _)| (GROUND_SD, name));
+    let measured = ground_columns(&no_foot, 0).into_iter().map(|(name, _)| (GROUND_MEASURED, name));
+    let with_unit = |(file, name): (&'static str, String)| {
+        let unit = unit_of(file, &name, Some(model));
+        (file, name, unit)
+    };
+    deviations.chain(measured).map(with_unit).collect()
 }
 
 /// The values of these columns in one frame; those of an unloaded foot are zero.

@@ -33,6 +33,9 @@ pub struct SubjectSummary {
     pub instrumented_windows_s: Vec<[f64; 2]>,
     /// Agreement of foot strikes and foot offs from several sources.
     pub events: Vec<EventAgreementSummary>,
+    /// What contradicts the labels of the markers or the standing trial, in sentences; left out if nothing does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contradictions: Vec<String>,
     /// Assumptions of the built-in body about this person, in sentences.
     pub assumptions: Vec<String>,
 }
@@ -154,6 +157,7 @@ impl SubjectSummary {
             plate_corners_m: body.plates.iter().map(PlateCornersSummary::new).collect(),
             instrumented_windows_s: body.on_plates.windows.clone(),
             events: agreements(body, listed, measured),
+            contradictions: body.contradictions.clone(),
             assumptions: report.map(|r| r.assumptions.clone()).unwrap_or_default(),
             ..SubjectSummary::of_skeleton(&body.laboratory.statement, &body.fit)
         }
@@ -172,6 +176,7 @@ impl SubjectSummary {
             plate_corners_m: Vec::new(),
             instrumented_windows_s: Vec::new(),
             events: Vec::new(),
+            contradictions: Vec::new(),
             assumptions: Vec::new(),
         }
     }

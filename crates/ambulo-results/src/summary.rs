@@ -11,7 +11,7 @@ use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, peak};
 use ambulo::findings::{Finding, Findings, word};
-use ambulo::model::Model;
+use ambulo::model::{Model, Side};
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
 use ambulo::study::{BodyMass, ForceOrigin, Outcome, Processing, Quality, Tracking};
@@ -81,6 +81,10 @@ pub struct Summary {
     pub comparison: Option<GroundAgreement>,
     /// Marker fit, segments, plates and events; `null` for recorded coordinates.
     pub subject: Option<SubjectSummary>,
+    /// Coordinates of pelvis and legs that nothing recorded determines, or that sit on a limit; left out if there are
+    /// none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_measured: Vec<String>,
     /// Residual reduction; `null` if the motion was not changed.
     pub consistency: Option<ConsistencySummary>,
     /// Tracking by feet on soft ground; `null` if the motion was not changed by it.
@@ -171,6 +175,8 @@ impl FilterKind {
 pub enum GroundOrigin {
     /// Force plates or other sensors.
     Measured,
+    /// Force plates or other sensors; the motion where a loaded foot was not on them.
+    Mixed,
     /// The motion itself.
     Predicted,
     /// A simulation of the motion.
@@ -195,8 +201,44 @@ pub struct Ground {
     pub source: GroundOrigin,
     /// Method for double support; `null` for measured forces.
     pub rule: Option<String>,
+    /// Of the time in which each leg was loaded, the share in which its load was measured; `null` without measured
+    /// forces.
+    #[serde(default)]
+    pub measured_share: Option<MeasuredShare>,
     /// A foot counts as unloaded below this vertical force [N].
     pub threshold_n: f64,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; left out where no
+    /// delay was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_delay_s: Option<f64>,
+}
+
+impl Ground {
+    /// In words, of which share of each leg's loaded time the load was measured; `None` if all of it was, or nothing.
+    #[must_use]
+    pub fn shares(&self) -> Option<String> {
+        let MeasuredShare { right, left } = self.measured_share.as_ref()?;
+        let percent = |share: f64| (100.0 * share).round();
+        let of_leg = |(side, share): (Side, Option<f64>)| {
+            share.map(|share| format!("{:.0} % of the {side} leg's loaded time", percent(share)))
+        };
+        let known = [(Side::Right, *right), (Side::Left, *left)];
+        let legs: Vec<String> = known.into_iter().filter_map(of_leg).collect();
+        let is_incomplete = known.iter().any(|(_, share)| share.is_some_and(|share| share < 1.0));
+        let rest = if self.source == GroundOrigin::Mixed { "predicted" } else { "unknown" };
+        is_incomplete.then(|| format!("measured in {}; {rest} in the rest", legs.join(" and ")))
+    }
+}
+
+/// Of the time in which each leg was loaded, the share in which its load was measured; `null` for a leg that was never
+/// loaded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MeasuredShare {
+    /// Of the right leg, 0 to 1.
+    pub right: Option<f64>,
+    /// Of the left leg, 0 to 1.
+    pub left: Option<f64>,
 }
 
 /// The residual at the root.
@@ -285,18 +327,25 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         rate_hz: grid.rate_hz(),
         frames: grid.frames,
         filter: filters(processing),
-        ground: Ground { source, rule, threshold_n: UNLOADED_N },
+        ground: Ground {
+            source,
+            rule,
+            measured_share: measured_share(outcome),
+            threshold_n: UNLOADED_N,
+            force_delay_s: outcome.force_delay_s,
+        },
         convention: None,
         activity: Some(outcome.activity),
         times_and_distances: WalkingSummary::of(&outcome.times_and_distances),
         residual: residual(model, analysis),
-        peaks: peaks(model, analysis),
+        peaks: peaks(model, outcome.complete()),
         findings: findings.as_slice().to_vec(),
         quality: Some(outcome.quality.clone()),
         verdict: Some(verdict.clone()),
         prediction: prediction.map(|prediction| prediction.checks.clone()),
         comparison: prediction.and_then(|prediction| prediction.agreement.clone()),
         subject: outcome.tracking.as_ref().map(subject),
+        not_measured: outcome.not_measured.iter().map(|id| model.coordinates()[id.index()].name.clone()).collect(),
         consistency: outcome.residual_reduction.as_ref().map(ConsistencySummary::of),
         tracking: prediction.and_then(|prediction| prediction.tracked.as_ref()).map(TrackingSummary::of),
         walk: None,
@@ -307,10 +356,16 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
 fn ground(origin: ForceOrigin) -> (GroundOrigin, Option<String>) {
     match origin {
         ForceOrigin::Measured => (GroundOrigin::Measured, None),
+        ForceOrigin::Mixed { rule } => (GroundOrigin::Mixed, Some(rule.to_owned())),
         ForceOrigin::Predicted { rule } => (GroundOrigin::Predicted, Some(rule.to_owned())),
         ForceOrigin::Simulated { rule } => (GroundOrigin::Simulated, Some(rule.to_owned())),
         ForceOrigin::None => (GroundOrigin::None, None),
     }
+}
+
+fn measured_share(outcome: &Outcome) -> Option<MeasuredShare> {
+    let [right, left] = Side::BOTH.map(|side| outcome.measured_share(side));
+    (right.is_some() || left.is_some()).then_some(MeasuredShare { right, left })
 }
 
 fn subject(tracking: &Tracking) -> SubjectSummary {

@@ -4,16 +4,20 @@ use crate::GROUND;
 use crate::sound::is_sound;
 use ambulo::analysis::{Analysis, Event, EventKind};
 use ambulo::dynamics::JointReaction;
+use ambulo::ground::stances::Stance;
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
-use ambulo::model::{BodyId, CoordinateKind, Model, Side};
+use ambulo::model::{BodyId, BySide, CoordinateKind, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::TableRows;
 use std::borrow::{Borrow, Cow};
 use std::rc::Rc;
+use std::sync::Arc;
 
 pub(crate) type Column = (String, Vec<f64>);
+/// For each frame the source of the load of each foot ([`ambulo::study::Outcome::load_sources`]).
+pub(crate) type LoadSources = Option<Arc<BySide<Vec<f64>>>>;
 /// A column whose values are computed when they are needed.
 pub(crate) type LazyColumn<'a> = (String, Box<dyn Fn(usize) -> f64 + 'a>);
 
@@ -61,6 +65,7 @@ pub(crate) fn moments<'a>(
     model: &'a Model,
     analysis: &'a Analysis,
     device: Option<&'a [Vec<f64>]>,
+    sources: &LoadSources,
 ) -> Result<TableRows<'a>, Error> {
     let of = |(k, name): (usize, String)| -> LazyColumn<'a> {
         let total = &analysis.forces.generalized[k];
@@ -70,22 +75,30 @@ pub(crate) fn moments<'a>(
         }
     };
     let title = if device.is_some() { "Biological Generalized Forces" } else { "Inverse Dynamics Generalized Forces" };
-    rows(title, analysis, model.force_names().into_iter().enumerate().map(of))
+    rows(title, analysis, model.force_names().into_iter().enumerate().map(of).chain(marks(sources)))
 }
 
 /// `powers.sto`: power of the generalised force of each coordinate [W].
-pub(crate) fn powers<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
+pub(crate) fn powers<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    sources: &LoadSources,
+) -> Result<TableRows<'a>, Error> {
     let powers = Rc::new(analysis.powers(model));
     let columns = model.coordinate_ids().map(|id| -> LazyColumn<'a> {
         let powers = Rc::clone(&powers);
         (format!("{}_power", model.coordinates()[id.index()].name), Box::new(move |i| powers.at(id, i)))
     });
-    rows("Joint Powers", analysis, columns)
+    rows("Joint Powers", analysis, columns.chain(marks(sources)))
 }
 
 /// `reactions.sto`: for each joint `<joint>_on_<child>_in_ground_` and force `f` [N], moment `m` about the joint centre
 /// [N.m] and that centre `p` [m], all of the parent on the child in world axes.
-pub(crate) fn reactions<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
+pub(crate) fn reactions<'a>(
+    model: &'a Model,
+    analysis: &'a Analysis,
+    sources: &LoadSources,
+) -> Result<TableRows<'a>, Error> {
     let mut columns: Vec<LazyColumn<'a>> = Vec::new();
     let axes = || ["x", "y", "z"].into_iter().enumerate();
     let reactions = Rc::new(analysis.reactions(model));
@@ -99,7 +112,7 @@ pub(crate) fn reactions<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<
         columns.extend(axes().map(|(k, axis)| (format!("{stem}m{axis}"), at(|reaction| reaction.wrench.moment, k))));
         columns.extend(axes().map(|(k, axis)| (format!("{stem}p{axis}"), at(|reaction| reaction.center, k))));
     }
-    rows("Joint Reactions", analysis, columns)
+    rows("Joint Reactions", analysis, columns.into_iter().chain(marks(sources)))
 }
 
 fn body_name(model: &Model, id: BodyId) -> &str {
@@ -107,9 +120,21 @@ fn body_name(model: &Model, id: BodyId) -> &str {
 }
 
 /// `grf.mot`: forces, centres of pressure and free moments of both feet; an unloaded foot has zeros.
-pub(crate) fn ground(model: &Model, analysis: &Analysis) -> Result<TableRows<'static>, Error> {
+pub(crate) fn ground(model: &Model, analysis: &Analysis, sources: &LoadSources) -> Result<TableRows<'static>, Error> {
     let columns = ground_columns(&feet(model, &analysis.ground), analysis.trajectory.grid().frames);
-    table("Ground Reactions", analysis, columns)
+    let columns =
+        columns.into_iter().map(|(name, values)| -> LazyColumn<'static> { (name, Box::new(move |i| values[i])) });
+    rows("Ground Reactions", analysis, columns.chain(marks(sources)))
+}
+
+/// `ground_source_r` and `_l`: 0 where the load of the foot was measured or the foot is in the air, 1 where it was
+/// predicted, 2 where it is unknown. No columns where nothing is marked.
+fn marks<'a>(sources: &LoadSources) -> Vec<LazyColumn<'a>> {
+    let column = |side: Side, sources: &Arc<BySide<Vec<f64>>>| -> LazyColumn<'a> {
+        let sources = Arc::clone(sources);
+        (format!("ground_source_{}", side.letter()), Box::new(move |i| sources[side][i]))
+    };
+    sources.iter().flat_map(|sources| Side::BOTH.map(|side| column(side, sources))).collect()
 }
 
 /// `ground_force_{s}_v`, `ground_force_{s}_p` and `ground_torque_{s}_` with x, y, z, for both sides; an unloaded foot
@@ -150,6 +175,15 @@ pub(crate) fn events_csv(events: &[Event]) -> String {
     let mut text = format!("{EVENTS_HEAD}\n");
     for event in events {
         text += &format!("{},{},{}\n", event.side.letter(), event.kind.word(), event.time_s);
+    }
+    text
+}
+
+/// `stances.csv`.
+pub(crate) fn stances_csv(stances: &[Stance]) -> String {
+    let mut text = "side,start,end,source\n".to_owned();
+    for Stance { side, start_s, end_s, source } in stances {
+        text += &format!("{},{start_s},{end_s},{source}\n", side.letter());
     }
     text
 }

@@ -16,6 +16,9 @@ pub fn unit_of(file: &str, column: &str, model: Option<&Model>) -> &'static str 
     if column.eq_ignore_ascii_case("time") {
         return "s";
     }
+    if column.starts_with("ground_source_") {
+        return "1";
+    }
     match file {
         KINEMATICS => model.map_or("", |model| unit_of_coordinate(column, model)),
         MOMENTS | MOMENTS_BIOLOGICAL if column.ends_with("_force") => "N",

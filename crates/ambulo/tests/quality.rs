@@ -29,7 +29,7 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 11] = [
+const SPOILED: [Spoiled; 13] = [
     spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
@@ -42,6 +42,12 @@ const SPOILED: [Spoiled; 11] = [
     spoiled("plates at 1.4 times the force", Measure::ResidualForce, |source, _| scale_plates(source, 1.4)),
     spoiled("plates that were off", Measure::SilentPlates, |source, _| scale_plates(source, 0.0)),
     spoiled("plates with the signals of each other", Measure::UnassignedForces, |source, _| exchange_plates(source)),
+    spoiled("plates with the lateral force mirrored", Measure::ForceDirections, |source, _| {
+        each_plate(source, |plate| *plate = plate.flipped(0));
+    }),
+    spoiled("plates with the fore-aft force mirrored", Measure::ForceDirections, |source, _| {
+        each_plate(source, |plate| *plate = plate.flipped(1));
+    }),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
         each_marker(source, |_, position| *position *= 1.1);
     }),

@@ -5,7 +5,7 @@ use ambulo::kinematics::retarget::retarget;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::skeleton::SkeletonRecording;
 use ambulo::motion::{SmplBody, SmplError, SmplMotion, Window};
-use ambulo::spatial::{STANDARD_GRAVITY, Vec3};
+use ambulo::spatial::{STANDARD_GRAVITY, Vec3, rotation};
 use ambulo::study::{self, Measure, QualityState, Recording, Settings, Source};
 use ambulo_formats::npz::{Array, Data, Npz};
 use std::f64::consts::FRAC_PI_2;
@@ -219,4 +219,65 @@ fn places_in_millimetres_and_time_steps_for_rates_are_refused_with_the_reason() 
     }
     assert!(refused(&archive(0.0083, &places(1.0), 0.0)).contains("is it the time from one frame to the next?"));
     assert!(SmplMotion::from_npz(&archive(5.0, &places(20.0), 0.0)).is_ok());
+}
+
+#[test]
+fn names_of_pose_estimators_and_rotation_matrices_are_read() {
+    let whole = archive(120.0, &[[0.0, 0.0, 0.9]; 3], 0.3);
+    let motion = SmplMotion::from_npz(&whole).unwrap();
+    let rows: Vec<f64> = whole.array("poses").unwrap().numbers().unwrap().to_vec();
+    let vectors = |from: usize, to: usize| -> Vec<f64> {
+        rows.chunks(156).flat_map(|row| row[3 * from..3 * to].to_vec()).collect()
+    };
+    let with = |arrays: Vec<(&str, Array)>| {
+        let mut npz = whole.clone();
+        npz.arrays.retain(|(name, _)| name != "poses" && name != "trans" && name != "mocap_framerate");
+        npz.arrays.push(("transl".into(), whole.array("trans").unwrap().clone()));
+        npz.arrays.push(("fps".into(), numbers(&[], vec![120.0])));
+        npz.arrays.extend(arrays.into_iter().map(|(name, array)| (name.to_owned(), array)));
+        npz
+    };
+    // SMPL's own body_pose has two joints of the hands more.
+    let hands: Vec<f64> = rows.chunks(156).flat_map(|row| [&row[3..66], &[0.0; 6][..]].concat()).collect();
+    for body in [numbers(&[3, 63], vectors(1, 22)), numbers(&[3, 21, 3], vectors(1, 22)), numbers(&[3, 69], hands)] {
+        for root in [numbers(&[3, 3], vectors(0, 1)), numbers(&[3, 1, 3], vectors(0, 1))] {
+            let npz = with(vec![("global_orient", root), ("body_pose", body.clone())]);
+            assert_eq!(SmplMotion::from_npz(&npz).unwrap(), motion);
+        }
+    }
+    let matrices = |from: usize, to: usize| -> Vec<f64> {
+        let of = |three: &[f64]| rotation(&Vec3::new(three[0], three[1], three[2])).transpose().as_slice().to_vec();
+        vectors(from, to).chunks(3).flat_map(of).collect()
+    };
+    let near = |npz: &Npz| {
+        let found = SmplMotion::from_npz(npz).unwrap();
+        for (a, b) in found.rotations.iter().flatten().zip(motion.rotations.iter().flatten()) {
+            assert!((rotation(a) - rotation(b)).norm() < 1e-12, "{a} {b}");
+        }
+    };
+    near(&with(vec![
+        ("global_orient", numbers(&[3, 1, 3, 3], matrices(0, 1))),
+        ("body_pose", numbers(&[3, 21, 3, 3], matrices(1, 22))),
+    ]));
+    near(&with(vec![("poses", numbers(&[3, 22, 3, 3], matrices(0, 22)))]));
+    near(&with(vec![("poses", numbers(&[3, 198], matrices(0, 22)))]));
+}
+
+#[test]
+fn other_representations_and_degrees_are_refused_by_name() {
+    let whole = archive(120.0, &[[0.0, 0.0, 0.9]; 3], 0.3);
+    let refused = |shape: &[usize], value: f64| {
+        let mut npz = whole.clone();
+        npz.arrays[0].1 = numbers(shape, vec![value; shape.iter().product()]);
+        SmplMotion::from_npz(&npz).unwrap_err().to_string()
+    };
+    for shape in [&[3, 24, 4][..], &[3, 96], &[3, 88]] {
+        assert!(refused(shape, 0.5).contains("`poses` has quaternions (4 numbers) for each joint"), "{shape:?}");
+    }
+    for shape in [&[3, 22, 6][..], &[3, 132], &[3, 144]] {
+        assert!(refused(shape, 0.5).contains("`poses` has 6 numbers for each joint"), "{shape:?}");
+    }
+    assert!(refused(&[3, 22, 9], 0.5).contains("no rotation matrices"), "{}", refused(&[3, 22, 9], 0.5));
+    assert!(refused(&[3, 72], 60.0).contains("which look like degrees"), "{}", refused(&[3, 72], 60.0));
+    assert!(refused(&[3, 70], 0.0).contains("has the shape [3, 70]"));
 }

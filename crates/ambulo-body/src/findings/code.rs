@@ -69,7 +69,9 @@ codes! {
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
-        "The file does not state whether its angles are in degrees or radians; they were read as radians."
+        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as \
+         degrees if \
+         they are too large for radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
         "Angles were read as radians, but they are as large as angles in degrees."
@@ -94,9 +96,14 @@ codes! {
         "The recording has no column for coordinates of the model; their default values were used throughout."
         "Record these coordinates, or check that their constant values suit the motion.";
     MotionCoupledMismatch "motion.coupled_mismatch" Warning
-        "Recorded values of a locked or coupled coordinate differ from what the model prescribes; the model's values \
-         were used."
+        "Recorded values of a coordinate differ from those of its coupler, or those of a coordinate that the model \
+         determines have gaps; the model's values were used."
         "Check that recording and model belong together.";
+    MotionModelReplaced "motion.model_replaced" Warning
+        "Recorded values of a coordinate that the model locks or prescribes differ from those of the model; the \
+         recorded \
+         values were used, as in OpenSim's inverse dynamics."
+        "Check that recording and model belong together; without the column, the values of the model are used.";
     MotionOutOfRange "motion.out_of_range" Warning
         "A coordinate leaves the range that the model allows."
         "Check that the motion was recorded with this model, and that signs agree: some models count knee flexion \
@@ -107,6 +114,10 @@ codes! {
     MotionUnevenClock "motion.uneven_clock" Warning
         "Samples of the recording are not evenly spaced in time; the recording was resampled."
         "Check for dropped frames.";
+    MotionHeldFrames "motion.held_frames" Warning
+        "Frames repeat the frame before them exactly while the body moves: the recording was played back, resampled or \
+         frozen by a program. They were treated as gaps."
+        "Export the recording again at the rate at which it was made.";
     MotionGapFilled "motion.gap_filled" Warning
         "Missing samples were filled by a spline."
         "Check the filled stretches, or fill them in the program that made the recording.";
@@ -114,8 +125,9 @@ codes! {
         "A motion that drives a scene ends before the scene; its last values are kept until the end."
         "Shorten the scene or lengthen the motion.";
     MotionClock "motion.clock" Warning
-        "The acceleration in flight phases is not gravity, so the stated frame rate is wrong."
-        "Correct the frame rate in the file; the message states the rate that agrees with gravity.";
+        "The stated frame rate is contradicted by gravity in flight, by the balance of the body over its feet, or by \
+         the times in the file; every force depends on it."
+        "Correct the frame rate in the file; the message states what it looks like.";
     // Skeletons.
     BvhAxes "bvh.axes" Note
         "States which axes of the skeleton file are up and forward."
@@ -223,8 +235,9 @@ codes! {
         "Neither a force plate nor the posture shows which axis is up."
         "Name heel, toe and pelvis markers as a marker set does.";
     LaboratoryForwardUnclear "laboratory.forward_unclear" Warning
-        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing."
-        "Name heel, toe and pelvis markers as a marker set does.";
+        "The forward direction is not clear: the body does not travel, and heel, toe and pelvis markers are missing or \
+         point in different directions."
+        "Name heel, toe and pelvis markers as a marker set does; check whether left and right are exchanged.";
     LaboratoryBackwards "laboratory.backwards" Warning
         "The body walks backwards; forward is the direction that it faces."
         "Check left and right markers if the person walked forwards.";
@@ -241,6 +254,10 @@ codes! {
         "The height of the markers is not that of a standing person, and a wrong unit does not explain it."
         "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
+    MarkersHeldInPlace "markers.held_in_place" Warning
+        "A marker stays exactly in place while the others move: a program filled a gap by holding its last position. \
+         These samples were treated as gaps."
+        "Fill the gaps of these markers by another method, or leave them open.";
     MarkersZeroIsGap "markers.zero_is_gap" Warning
         "Positions of exactly 0 0 0 were read as gaps."
         "Export gaps as missing values.";
@@ -281,6 +298,25 @@ codes! {
     MarkersHeld "markers.held" Note
         "No marker determines some coordinates of the body; constant values are used."
         "Add markers on the named segments if these coordinates matter.";
+    MarkersNotMeasured "markers.not_measured" Warning
+        "A coordinate of a leg or the pelvis was not measured: nothing recorded determines it, so that it keeps one \
+         value, or it lies on its limit in more than a tenth of the frames. Clinical tables and scores leave it out."
+        "Record all markers of the segment in the motion and in the standing trial; at a limit, check for misplaced or \
+         exchanged markers.";
+    MarkersArms "markers.arms" Note
+        "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
+        "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
+    MarkersSidesExchanged "markers.sides_exchanged" Warning
+        "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were \
+         exchanged \
+         back."
+        "Correct the labels. If the axes of the laboratory are left-handed, mirror one axis instead: the sides of all \
+         results are then exchanged.";
+    MarkersMoved "markers.moved" Warning
+        "A marker is elsewhere on the body than in the standing trial, while the others agree: it moved, or was put on \
+         anew."
+        "Record a standing trial with the markers of the motion, or leave out the standing trial; which of the two \
+         recordings is right cannot be decided.";
     MarkersWindow "markers.window" Warning
         "Markers are missing for too long outside a part of the recording; only this part was analysed."
         "Allow longer gaps, or choose another part of the recording.";
@@ -297,6 +333,14 @@ codes! {
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";
+    CalibrationPlaced "calibration.placed" Warning
+        "The standing trial lacks a marker of a leg or the pelvis that the motion has; its place on the body was taken \
+         from the motion."
+        "Nothing to do if the angles of this segment are plausible; otherwise record a standing trial with all \
+         markers.";
+    CalibrationOtherLimbs "calibration.other_limbs" Warning
+        "The limbs of the standing trial have other lengths than those of the motion: it is another person's."
+        "Give the standing trial of this person, or none.";
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
@@ -348,6 +392,11 @@ codes! {
         "The mass on the force plates, in motion or in the standing trial, differs from the body mass by more than 5 % \
          and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
+    MassReplaced "mass.replaced" Warning
+        "Force plates carry another mass than the model has, and none is stated; the masses of the model were scaled \
+         to \
+         the weighed one."
+        "State the body mass if the weighed one is wrong; the mass of the model keeps the model as it is.";
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
         "Nothing to do.";
@@ -367,6 +416,9 @@ codes! {
     PlatesUnitUnknown "plates.unit_unknown" Warning
         "The unit of a force is unknown; it was read as newtons."
         "Correct the unit in the file.";
+    PlatesUnitByWeight "plates.unit_by_weight" Warning
+        "By the unit in the file, steps on the plates weigh what no person does; another unit fits and was used."
+        "Correct the unit, the scale or the calibration of the channels in the file.";
     PlatesPolynomial "plates.polynomial" Note
         "The file has a polynomial that corrects the centre of pressure; it was not used."
         "Nothing to do; the correction is some millimetres.";
@@ -394,6 +446,21 @@ codes! {
     PlatesCenterOutside "plates.center_outside" Warning
         "The centre of pressure is often outside its plate."
         "Check CORNERS, ORIGIN, CHANNEL and the units of the plate in the file.";
+    PlatesCornersOrdered "plates.corners_ordered" Warning
+        "With the corners in the order of the file the loads of a plate lie beside the feet, with another order under \
+         them; the other order was used."
+        "Correct FORCE_PLATFORM:CORNERS in the file.";
+    PlatesCornersUnclear "plates.corners_unclear" Warning
+        "The loads of a plate lie beside the feet; several orders of its corners put them under the feet, and none was \
+         used."
+        "Correct FORCE_PLATFORM:CORNERS in the file, or state how the plate is turned.";
+    PlatesMirrored "plates.mirrored" Warning
+        "A horizontal force of a plate or a force table points away from the mass centre where it must point towards \
+         it: it is mirrored or turned."
+        "State the correction of the plate, or correct the sign of the channel or column.";
+    PlatesCrossTalk "plates.cross_talk" Warning
+        "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."
+        "Check cables and amplifiers of the plates.";
     PlatesPartial "plates.partial" Warning
         "Only part of a foot's load was measured."
         "Choose a step that is wholly on a plate.";
@@ -420,6 +487,14 @@ codes! {
     LoadsWorldAxes "loads.world_axes" Note
         "Forces from a table are not in the markers' axes; they are read as x forward, y up, z right."
         "Rotate the forces of the table if their axes are different.";
+    LoadsTurned "loads.turned" Warning
+        "The forces of a table do not act along y, upwards, but along another axis: the table has other axes; it was \
+         turned."
+        "Turn the table so that y is up and x forward, or say so to the program that wrote it.";
+    LoadsUnitByWeight "loads.unit_by_weight" Warning
+        "Steps in a force table weigh what no person does in newtons, or its moments are too large for N.m; another \
+         unit fits and was used."
+        "Write newtons, metres and newton metres.";
     LoadsSwitchedOff "loads.switched_off" Note
         "A load is switched off in its file and was not used."
         "Nothing to do.";
@@ -432,6 +507,11 @@ codes! {
     LoadsShorterThanMotion "loads.shorter_than_motion" Note
         "Forces were recorded for a part of the motion only; the rest was left out."
         "Nothing to do.";
+    ForcesDelayed "forces.delayed" Warning
+        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual \
+         force \
+         and residual moment fall by a tenth or more if the forces are shifted."
+        "Synchronise plates and cameras, or shift the forces by the delay in the message.";
     LoadsNoSide "loads.no_side" Warning
         "A load acts on a body that is neither left nor right; it is used, but not in `grf.mot`."
         "Check the body on which the load acts.";
@@ -490,6 +570,13 @@ codes! {
     GroundPredicted "ground.predicted" Note
         "Without measured forces the ground forces are predicted from the motion."
         "Give measured forces if there are any.";
+    StancesPredicted "stances.predicted" Note
+        "A loaded foot was not on a force plate, or only in part; moments, powers and reactions have predicted ground \
+         forces there."
+        "Nothing to do; `stances.csv` and the columns `ground_source` list these times.";
+    StancesUnknown "stances.unknown" Warning
+        "A loaded foot was not on a force plate, and its load cannot be predicted reliably."
+        "Choose the time in which every loaded foot is on a plate; `stances.csv` lists the others.";
     ComparisonNone "comparison.none" Warning
         "No foot was alone and wholly on a plate, so the prediction could not be compared with force plates."
         "Nothing to do.";
@@ -664,6 +751,20 @@ impl Code {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
+    }
+
+    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    #[must_use]
+    pub fn comes_first(self) -> bool {
+        matches!(
+            self,
+            Code::MarkersNotMeasured
+                | Code::MarkersSidesExchanged
+                | Code::MarkersMoved
+                | Code::CalibrationOtherLimbs
+                | Code::CalibrationOtherPerson
+                | Code::CalibrationPlaced
+        )
     }
 
     /// How much the finding matters.

@@ -102,6 +102,11 @@ impl Findings {
         }
     }
 
+    /// Removes the findings with this code of which a later one knows the true reason.
+    pub fn withdraw(&mut self, code: Code, is_wrong: impl Fn(&str) -> bool) {
+        self.list.retain(|finding| finding.code != code || !is_wrong(&finding.message));
+    }
+
     /// The findings, in the order in which they first occurred.
     #[must_use]
     pub fn as_slice(&self) -> &[Finding] {

@@ -56,8 +56,13 @@ pub enum TrajectoryError {
     },
 }
 
-/// Largest difference between a recorded coordinate and its coupler or lock without a warning [rad or m].
+/// Largest difference between a recorded coordinate and its coupler without a warning [rad or m].
 const COUPLER_TOLERANCE: f64 = 0.02;
+/// Largest difference between a recorded coordinate and its lock at which both are the same [rad or m]: the digits of a
+/// file.
+const LOCK_TOLERANCE: f64 = 1e-6;
+/// The same for a prescribed coordinate, which a low-pass filter of the recording changes [rad or m].
+const PRESCRIBED_TOLERANCE: f64 = 1e-3;
 
 impl Trajectory {
     /// Makes a trajectory from complete columns: per coordinate its value, rate and acceleration, one entry per frame.
@@ -86,8 +91,9 @@ impl Trajectory {
         Ok(Trajectory { grid, columns })
     }
 
-    /// Completes a smoothed recording: locked, prescribed and missing coordinates get the values of the model, coupled
-    /// ones follow their coupler. A recorded column that contradicts them is not used, with a warning.
+    /// Completes a smoothed recording: missing coordinates get the values of the model, coupled ones follow their
+    /// coupler. Locked and prescribed coordinates keep their recorded values, as in OpenSim's inverse dynamics, and get
+    /// those of the model without a recording. A warning names each column that contradicts the model.
     ///
     /// # Errors
     /// Numbers that are not finite.
@@ -171,19 +177,46 @@ fn recorded_or_driven(
     {
         return recorded;
     }
+    let recorded = motion.columns.get_mut(id.index()).filter(|_| !matches!(coordinate.drive, Drive::Coupled(..)));
+    let recorded = recorded.and_then(Option::take);
     let motion = &*motion;
-    let held = || [vec![coordinate.default_value; motion.grid.frames], zeros(motion), zeros(motion)];
-    match (&coordinate.drive, motion.column(id)) {
-        (Drive::Locked, recorded) => {
-            report_mismatch(model, id, recorded.map(|c| &c[0]), &held()[0], findings);
-            held()
-        }
-        (Drive::Prescribed(function), _) => {
+    let (of_model, tolerance) = match &coordinate.drive {
+        Drive::Prescribed(function) => {
             let times = [motion.grid.times(), vec![1.0; motion.grid.frames], zeros(motion)];
-            follow(&times, |t| function.at(t))
+            (follow(&times, |t| function.at(t)), PRESCRIBED_TOLERANCE)
         }
-        (Drive::Coupled(..) | Drive::Free, _) => held(),
+        Drive::Locked | Drive::Coupled(..) | Drive::Free => {
+            ([vec![coordinate.default_value; motion.grid.frames], zeros(motion), zeros(motion)], LOCK_TOLERANCE)
+        }
+    };
+    let Some(recorded) = recorded else { return of_model };
+    let worst = largest_difference(&recorded[0], &of_model[0]);
+    if worst <= tolerance {
+        return of_model;
     }
+    report_replaced(coordinate, worst, findings);
+    recorded
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Warns that recorded values are used in place of those that the model locks or prescribes.
+fn report_replaced(coordinate: &Coordinate, worst: f64, findings: &mut Findings) {
+    let source = if matches!(coordinate.drive, Drive::Locked) { "is locked" } else { "is prescribed" };
+    let unit = unit(coordinate);
+    let message = format!(
+        "coordinate `{}` {source} in the model; the recorded values, which differ by up to {worst:.3} {unit}, were \
+         used, \
+         as in OpenSim's inverse dynamics. hint: without this column the values of the model are used",
+        coordinate.name
+    );
+    findings.report(Code::MotionModelReplaced, message);
+}
+
+fn unit(coordinate: &Coordinate) -> &'static str {
+    if coordinate.kind == CoordinateKind::Translation { "m" } else { "rad" }
 }
 
 /// Free coordinates without a column, with their default values.
@@ -232,19 +265,16 @@ fn report_mismatch(
 ) {
     let Some(recorded) = recorded else { return };
     let coordinate = &model.coordinates()[id.index()];
-    let worst = recorded.iter().zip(used).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let worst = largest_difference(recorded, used);
     if worst <= COUPLER_TOLERANCE {
         return;
     }
-    let unit = if coordinate.kind == CoordinateKind::Translation { "m" } else { "rad" };
-    let source = match coordinate.drive {
-        Drive::Locked => "is locked in the model",
-        _ => "follows a coupler of the model",
-    };
+    let unit = unit(coordinate);
     let in_degrees = recorded.iter().zip(used).all(|(a, b)| (a.to_radians() - b).abs() <= COUPLER_TOLERANCE);
     let guess = if in_degrees { "; the recorded column is in degrees under a header that states radians" } else { "" };
     let message = format!(
-        "coordinate `{}` {source}; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
+        "coordinate `{}` follows a coupler of the model; the recorded values, off by up to {worst:.3} {unit}, were not \
+         used{guess}",
         coordinate.name
     );
     findings.report(Code::MotionCoupledMismatch, message);

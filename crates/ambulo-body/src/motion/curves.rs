@@ -3,7 +3,7 @@
 //! A natural quintic spline through every sample; short gaps are interpolated; no filter.
 
 use super::gaps::{fill_gaps, spline_through};
-use super::import::{coordinates_from_table, rows_with_rising_time};
+use super::import::{coordinates_from_table, rows_with_rising_time, times};
 use super::jumps;
 use super::recording::MotionError;
 use super::time_grid::TimeGrid;
@@ -158,8 +158,8 @@ impl RecordedTable {
             findings.report(Code::MotionUnitUnstated, message);
         }
         let unit = if turns && self.table.in_degrees == Some(true) { 1.0_f64.to_radians() } else { 1.0 };
-        let kept = rows_with_rising_time(&self.table, findings)?;
-        let clock = self.table.times().unwrap_or_default();
+        let clock = times(&self.table)?;
+        let kept = rows_with_rising_time(&self.table, clock, findings)?;
         let times = even(&kept.iter().map(|&row| clock[row]).collect::<Vec<_>>());
         let values: Vec<f64> = kept.iter().map(|&row| values[row] * unit).collect();
         Ok(Samples { times, values, rows: kept })

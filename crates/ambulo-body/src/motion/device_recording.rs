@@ -4,7 +4,7 @@
 //! biological moment = total - device. A device that acts on both segments of a joint changes nothing else; its
 //! mass is added to the model (`Model::with_point_mass`).
 
-use super::import::rows_with_rising_time;
+use super::import::rows_with_clock;
 use super::recording::MotionError;
 use super::time_grid::{TimeGrid, interpolate};
 use crate::findings::{Code, Findings};
@@ -58,11 +58,9 @@ pub fn device_from_table(
     table: &Table,
     findings: &mut Findings,
 ) -> Result<DeviceRecording, MotionError> {
-    let kept = rows_with_rising_time(table, findings)?;
-    let times = table.times().unwrap_or_default();
+    let (kept, times) = rows_with_clock(table, findings)?;
     let names = model.force_names();
-    let mut device =
-        DeviceRecording { times: kept.iter().map(|&row| times[row]).collect(), columns: vec![None; names.len()] };
+    let mut device = DeviceRecording { times, columns: vec![None; names.len()] };
     for (name, values) in table.columns().skip(1) {
         let Some(index) = names.iter().position(|n| n == name) else {
             findings.report(
@@ -71,8 +69,8 @@ pub fn device_from_table(
             );
             continue;
         };
-        if let Some(&row) = kept.iter().find(|&&row| !values[row].is_finite()) {
-            let (column, time) = (name.to_owned(), times[row]);
+        if let Some(number) = kept.iter().position(|&row| !values[row].is_finite()) {
+            let (column, time) = (name.to_owned(), device.times[number]);
             return Err(MotionError::Gap { column, from_s: time, to_s: time, longest_s: 0.0 });
         }
         device.columns[index] = Some(kept.iter().map(|&row| values[row]).collect());

@@ -1,6 +1,6 @@
 //! Forces from force plates or other sensors: force, point of application and moment about it.
 
-use super::import::rows_with_rising_time;
+use super::import::rows_with_clock;
 use super::recording::MotionError;
 use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model};
@@ -56,9 +56,7 @@ pub fn force_recordings(
     table: &Table,
     findings: &mut Findings,
 ) -> Result<Vec<ForceRecording>, MotionError> {
-    let kept = rows_with_rising_time(table, findings)?;
-    let times = table.times().unwrap_or_default();
-    let times: Vec<f64> = kept.iter().map(|&row| times[row]).collect();
+    let (kept, times) = rows_with_clock(table, findings)?;
     let mut recordings = Vec::new();
     for load in &loads.forces {
         if !load.enabled {

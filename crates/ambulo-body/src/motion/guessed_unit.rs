@@ -49,7 +49,7 @@ pub(super) fn unit_of_frames<P: Iterator<Item = Vec3>>(
 }
 
 fn unit_of_plates(file: &C3d) -> Option<(&'static str, f64)> {
-    let platforms = file.platforms().ok()?;
+    let platforms: Vec<_> = file.each_platform().into_iter().flatten().collect();
     let edge = |corners: &[[f64; 3]; 4]| (Vec3::from(corners[0]) - Vec3::from(corners[1])).norm();
     let edges = platforms.iter().map(|platform| edge(&platform.corners)).filter(|edge| *edge > 0.0 && edge.is_finite());
     unit_within(median(edges)?, PLATE_M)

@@ -1,9 +1,12 @@
 //! Reads the coordinates of a model from a table.
 
+use super::clock::clock_of_table;
+use super::held::release_held_coordinates;
 use super::jumps;
 use super::recording::{Motion, MotionError};
 use crate::findings::{Code, Findings};
-use crate::model::{Coordinate, CoordinateKind, Model};
+use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model};
+use crate::numerics::median;
 use ambulo_formats::table::{Table, coordinate_of_state_path};
 
 /// Largest plausible angle [rad]; larger ones under a header that states radians were written in degrees.
@@ -27,22 +30,23 @@ pub fn coordinates_from_table(
     origin: &str,
     findings: &mut Findings,
 ) -> Result<Motion, MotionError> {
-    let kept = rows_with_rising_time(table, findings)?;
-    let times = table.times().unwrap_or_default();
-    let in_degrees = table.in_degrees.unwrap_or_else(|| {
-        findings
-            .report(Code::MotionUnitUnstated, "the motion's header has no `inDegrees`; its angles are read as radians");
-        false
+    let (kept, times) = rows_with_clock(table, findings)?;
+    let in_degrees = table.in_degrees.or_else(|| unit_of_names(table)).unwrap_or_else(|| {
+        let unit = unstated_unit(model, table);
+        let reason = match unit {
+            true => format!("degrees, because they exceed {LARGEST_PLAUSIBLE_ANGLE}"),
+            false => "radians".to_owned(),
+        };
+        let message = format!("the motion's header has no `inDegrees`; its angles are read as {reason}");
+        findings.report(Code::MotionUnitUnstated, message);
+        unit
     });
-    let mut motion = Motion {
-        origin: origin.to_owned(),
-        times: kept.iter().map(|&row| times[row]).collect(),
-        columns: vec![None; model.coordinates().len()],
-    };
+    let mut motion = Motion { origin: origin.to_owned(), times, columns: vec![None; model.coordinates().len()] };
     let mut unknown = Vec::new();
     for (name, values) in table.columns().skip(1) {
+        let (name, _) = without_unit(name);
         let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
-        match plain.and_then(|n| model.coordinate(n)) {
+        match plain.and_then(|n| coordinate_named(model, n)).filter(|id| motion.columns[id.index()].is_none()) {
             Some(id) => {
                 let turn = in_degrees && model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
                 let convert = |x: f64| if turn { x.to_radians() } else { x };
@@ -56,11 +60,52 @@ pub fn coordinates_from_table(
         return Err(no_coordinate(model, table));
     }
     report_unknown(model, &unknown, &motion, findings);
+    release_held_coordinates(model, &mut motion, findings);
     if is_usual_unit(model, &motion, in_degrees, findings) {
         jumps::without_whole_turns(model, &mut motion, findings);
         jumps::report_jumps(model, &motion, findings);
     }
     Ok(motion)
+}
+
+/// Whether angles without a stated unit are in degrees: as radians they would be more than a turn.
+fn unstated_unit(model: &Model, table: &Table) -> bool {
+    let of_coordinate = |(name, values): (&str, &[f64])| {
+        let (name, _) = without_unit(name);
+        let plain = if name.contains('/') { coordinate_of_state_path(name) } else { Some(name) };
+        let id = plain.and_then(|name| coordinate_named(model, name))?;
+        let is_rotation = model.coordinates()[id.index()].kind == CoordinateKind::Rotation;
+        let sizes = values.iter().map(|x| x.abs()).filter(|x| x.is_finite());
+        is_rotation.then(|| median(sizes).unwrap_or(0.0))
+    };
+    // The median of each column: a few wrong rows are no unit.
+    table.columns().skip(1).filter_map(of_coordinate).any(|usual| usual > LARGEST_PLAUSIBLE_ANGLE)
+}
+
+/// The coordinate with this name; if there is none, the only one with this name in other letters.
+fn coordinate_named(model: &Model, name: &str) -> Option<CoordinateId> {
+    let is_same = |id: &CoordinateId| model.coordinates()[id.index()].name.eq_ignore_ascii_case(name);
+    let mut others = model.coordinate_ids().filter(is_same);
+    model.coordinate(name).or_else(|| others.next().filter(|_| others.next().is_none()))
+}
+
+/// A name without the unit in brackets behind it, and whether this is a unit of angles: `Some(true)` for degrees.
+fn without_unit(name: &str) -> (&str, Option<bool>) {
+    let in_brackets = |open: char, close: char| name.trim_end().strip_suffix(close)?.rsplit_once(open);
+    let Some((plain, unit)) = in_brackets('(', ')').or_else(|| in_brackets('[', ']')) else { return (name, None) };
+    match unit.trim().to_lowercase().as_str() {
+        "deg" | "degrees" | "degree" | "°" => (plain.trim_end(), Some(true)),
+        "rad" | "radians" => (plain.trim_end(), Some(false)),
+        "m" => (plain.trim_end(), None),
+        _ => (name, None),
+    }
+}
+
+/// Whether the names of the columns state degrees; `None` if they state nothing, or contradict each other.
+fn unit_of_names(table: &Table) -> Option<bool> {
+    let mut units = table.names().iter().filter_map(|name| without_unit(name).1);
+    let first = units.next()?;
+    units.all(|unit| unit == first).then_some(first)
 }
 
 fn no_coordinate(model: &Model, table: &Table) -> MotionError {
@@ -72,10 +117,26 @@ fn no_coordinate(model: &Model, table: &Table) -> MotionError {
     }
 }
 
+/// The times of a table [s], as written.
+pub(super) fn times(table: &Table) -> Result<&[f64], MotionError> {
+    let first = || table.names().first().cloned().unwrap_or_default();
+    table.times().ok_or_else(|| MotionError::NoTime { found: first() })
+}
+
+/// Rows to keep of a recording, with the times that its clock means [s].
+pub(super) fn rows_with_clock(table: &Table, findings: &mut Findings) -> Result<(Vec<usize>, Vec<f64>), MotionError> {
+    let clock = clock_of_table("", times(table)?, None, None, findings);
+    let kept = rows_with_rising_time(table, &clock, findings)?;
+    let times = kept.iter().map(|&row| clock[row]).collect();
+    Ok((kept, times))
+}
+
 /// Rows to keep: exact repetitions of the previous row are dropped and counted.
-pub(super) fn rows_with_rising_time(table: &Table, findings: &mut Findings) -> Result<Vec<usize>, MotionError> {
-    let first_name = table.names().first().cloned().unwrap_or_default();
-    let Some(times) = table.times() else { return Err(MotionError::NoTime { found: first_name }) };
+pub(super) fn rows_with_rising_time(
+    table: &Table,
+    times: &[f64],
+    findings: &mut Findings,
+) -> Result<Vec<usize>, MotionError> {
     let place = |row: usize| match table.line_of_row(row) {
         Some(line) => format!("line {line}"),
         None => format!("row {}", row + 1),

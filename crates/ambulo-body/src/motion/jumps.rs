@@ -165,7 +165,7 @@ fn jumps_of_column(times: &[f64], column: &[f64], limits: &Limits) -> Vec<usize>
     let is_jump = |i: &usize| {
         let [least, most] = limits.bounds;
         let allowed = (limits.fastest * (times[i + 1] - times[*i])).clamp(least, most);
-        if changes[*i] <= allowed || changes[*i].is_nan() {
+        if changes[*i] <= allowed || !changes[*i].is_finite() {
             return false;
         }
         let from = i.saturating_sub(AROUND);

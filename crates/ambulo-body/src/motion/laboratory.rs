@@ -124,8 +124,12 @@ pub fn laboratory_of_landmarks(
     let up = upward(markers, landmarks, plates, findings);
     let scale = scale(markers, up, findings);
     let travel = travel(markers, landmarks, plates, up, scale, findings);
-    let (forward, heading) =
-        forward(travel.map(|travel| travel.direction), facing(markers, landmarks, up), up, findings);
+    let (forward, heading) = forward(
+        travel.map(|travel| travel.direction),
+        facing(markers, landmarks, up),
+        (up, no_facing(landmarks)),
+        findings,
+    );
     let right = forward.cross(&up);
     let way = match heading {
         Heading::Walking => "walking",
@@ -241,7 +245,25 @@ fn extent(markers: &MarkerRecording, frame: usize, axis: Vec3) -> Option<f64> {
 
 // ---- forward ----
 
-fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut Findings) -> (Vec3, Heading) {
+/// Why the body has no facing direction, if it has none.
+fn no_facing(landmarks: &Landmarks) -> &'static str {
+    let has_foot =
+        Side::BOTH.iter().any(|side| landmarks.foot(*side).heel.is_some() && landmarks.foot(*side).toe.is_some());
+    let has_pelvis = landmarks.asis_r.is_some() && landmarks.asis_l.is_some();
+    if has_foot || has_pelvis {
+        "its heel, toe and pelvis markers point in different directions, or are not seen"
+    } else {
+        "no heel and toe or pelvis markers are known"
+    }
+}
+
+/// `up`: with the reason why no facing direction is known.
+fn forward(
+    travel: Option<Vec3>,
+    facing: Option<Vec3>,
+    (up, no_facing): (Vec3, &str),
+    findings: &mut Findings,
+) -> (Vec3, Heading) {
     match (travel, facing) {
         (Some(travel), None) => (snapped(travel, up), Heading::Walking),
         (Some(travel), Some(facing)) => {
@@ -265,8 +287,7 @@ fn forward(travel: Option<Vec3>, facing: Option<Vec3>, up: Vec3, findings: &mut 
         (None, None) => {
             let forward = if up.x.abs() > 0.5 { Vec3::y() } else { Vec3::x() };
             let message = format!(
-                "the forward direction cannot be determined (the body stays in place, and no heel, toe or pelvis \
-                 marker is known); {} was assumed",
+                "the forward direction cannot be determined (the body stays in place, and {no_facing}); {} was assumed",
                 direction_name(forward, up)
             );
             findings.report(Code::LaboratoryForwardUnclear, message);

@@ -1,8 +1,10 @@
 //! Marker trajectories in metres; gaps are not-a-number.
 
+use super::clock::clock_of_table;
 use super::guessed_unit::metres_per_unit;
 use super::real_points::{real_points, shared_prefix};
 use crate::findings::{Code, Findings};
+use crate::numerics::median;
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Point};
 use ambulo_formats::trc::Trc;
@@ -50,6 +52,21 @@ pub enum MarkerError {
         /// Number of frames of the recording.
         frames: usize,
         /// Its first marker names.
+        listed: String,
+    },
+    /// Two points for most names, at different places.
+    #[error(
+        "{count} names have two points each, {apart_m:.1} m apart (first {listed}): the markers are those of two \
+         people; \
+         expected one person. hint: export one person, or give the markers of each a prefix with the name, such as \
+         `Anna:LASI`"
+    )]
+    TwoPeople {
+        /// Number of names with two points.
+        count: usize,
+        /// Median distance of the two points [m].
+        apart_m: f64,
+        /// The first of these names.
         listed: String,
     },
     /// Lengths without a unit.
@@ -157,7 +174,7 @@ pub fn markers_from_trc(trc: &Trc, findings: &mut Findings) -> Result<MarkerReco
     let recording = MarkerRecording {
         name: trc.name.clone(),
         rate_hz: trc.rate_hz,
-        times: trc.times().to_vec(),
+        times: clock_of_table("", trc.times(), Some(trc.frames()), Some(trc.rate_hz), findings),
         markers: paths.collect(),
     };
     checked(recording, findings)
@@ -187,7 +204,7 @@ pub fn markers_from_c3d(file: &C3d, findings: &mut Findings) -> Result<MarkerRec
         name: String::new(),
         rate_hz: file.point_rate_hz,
         times: file.times(),
-        markers: one_of_each_name(points.iter().map(path).collect(), findings),
+        markers: one_of_each_name(points.iter().map(path).collect(), findings)?,
     };
     checked(recording, findings)
 }
@@ -252,14 +269,17 @@ fn is_finite(position: &Vec3) -> bool {
     position.iter().all(|x| x.is_finite())
 }
 
-/// Keeps one trajectory per name: the one that is visible longest, at the position of the first.
-fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<MarkerPath> {
+/// Keeps one trajectory per name: the one that is visible longest, at the position of the first. Where most names of a
+/// body have two points at different places, these are two people.
+fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Result<Vec<MarkerPath>, MarkerError> {
     let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
     let mut kept: Vec<MarkerPath> = Vec::new();
+    let mut twice: Vec<(String, f64)> = Vec::new();
     for path in paths {
         match kept.iter_mut().find(|k| k.name == path.name) {
             None => kept.push(path),
             Some(before) => {
+                twice.extend(distance(before, &path).map(|apart_m| (path.name.clone(), apart_m)));
                 let message = format!("two points are named {}; the one that is visible longer was kept", path.name);
                 findings.report(Code::MarkersNameTwice, message);
                 if seen(&path) > seen(before) {
@@ -268,5 +288,22 @@ fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Vec<Mark
             }
         }
     }
-    kept
+    twice.retain(|(_, apart_m)| *apart_m > FROM_PERSON_TO_PERSON_M);
+    if twice.len() < OF_A_PERSON {
+        return Ok(kept);
+    }
+    let listed: Vec<&str> = twice.iter().take(3).map(|(name, _)| name.as_str()).collect();
+    let apart_m = median(twice.iter().map(|(_, apart_m)| *apart_m)).unwrap_or(f64::NAN);
+    Err(MarkerError::TwoPeople { count: twice.len(), apart_m, listed: listed.join(", ") })
+}
+
+/// Two people are further from each other than a marker from a ghost of it [m].
+const FROM_PERSON_TO_PERSON_M: f64 = 0.2;
+/// Fewest markers of a person: a pelvis and two legs.
+const OF_A_PERSON: usize = 8;
+
+/// Median distance of two points in the frames that have both [m]; `None` without such a frame.
+fn distance(a: &MarkerPath, b: &MarkerPath) -> Option<f64> {
+    let both = (0..a.positions.len()).filter(|&i| a.is_seen(i) && b.is_seen(i));
+    median(both.map(|i| (a.positions[i] - b.positions[i]).norm()))
 }

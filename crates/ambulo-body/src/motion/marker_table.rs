@@ -4,6 +4,7 @@
 //! `LASI X`, `LASI:x`, `LASIx`. Ambulo writes such tables itself (`convert walk.c3d walk.csv`), in metres. The unit is
 //! not stated in a table; the size of the person tells it.
 
+use super::clock::clock_of_table;
 use super::guessed_unit::unit_of_frames;
 use super::marker_recording::{MarkerError, MarkerPath, MarkerRecording, checked};
 use crate::findings::{Code, Findings};
@@ -31,7 +32,7 @@ pub fn is_marker_table(table: &Table) -> bool {
 /// # Errors
 /// No column of times, no markers, times that do not increase.
 pub fn markers_from_table(table: &Table, name: &str, findings: &mut Findings) -> Result<MarkerRecording, MarkerError> {
-    let times = table.times().unwrap_or_default().to_vec();
+    let times = clock_of_table(name, table.times().unwrap_or_default(), None, None, findings);
     let triples = triples(table);
     let place = |triple: &Triple<'_>, frame: usize| Vec3::from_fn(|axis, _| triple.columns[axis][frame]);
     let unit = unit_of_frames(times.len(), |frame| triples.iter().map(move |triple| place(triple, frame)));

@@ -5,6 +5,7 @@
 
 mod b3d_trial;
 mod bids;
+mod clock;
 mod curves;
 mod device_recording;
 pub mod filter;
@@ -14,6 +15,7 @@ mod gait_event;
 #[doc(hidden)]
 pub mod gaps;
 mod guessed_unit;
+mod held;
 mod import;
 mod jumps;
 mod laboratory;
@@ -37,11 +39,13 @@ pub use b3d_trial::{B3dError, B3dTrial, reasons as missing_force_reasons};
 #[doc(hidden)]
 pub use bids::BidsError;
 pub use bids::{coordinates_from_bids, is_bids_markers, markers_from_bids};
+pub use clock::{clock_of_table, misread_step, unit_of_times};
 pub use curves::{CurveError, RecordedTable};
 pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use gait_event::{Event, EventKind, events_from_c3d};
+pub use held::{release_held_coordinates, release_held_markers};
 pub use import::coordinates_from_table;
 #[doc(hidden)]
 pub use jumps::{Jumps, jumps};

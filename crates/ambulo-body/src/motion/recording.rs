@@ -102,8 +102,12 @@ pub enum MotionError {
     },
     /// A gap that is too long to fill, or at an end of the recording.
     #[error(
-        "`{column}` has no number from {from_s:.4} s to {to_s:.4} s; expected gaps inside the recording of at most \
-         {longest_s} s. hint: choose a range without the gap"
+        "`{column}` has no number {}; expected {}. hint: choose a range without the gap", span(*from_s, *to_s),
+        if *longest_s > 0.0 {
+            format!("gaps inside the recording of at most {longest_s} s from sample to sample")
+        } else {
+            "a number at every instant".to_owned()
+        }
     )]
     Gap {
         /// The column.
@@ -113,6 +117,20 @@ pub enum MotionError {
         /// Last time without a number [s].
         to_s: f64,
         /// Longest gap that is filled [s].
+        longest_s: f64,
+    },
+    /// A long time without any row.
+    #[error(
+        "there is no row between {from_s:.4} s and {to_s:.4} s; expected steps of at most {longest_s} s. hint: choose \
+         a \
+         range on one side of the gap, or check the unit of the times"
+    )]
+    NoRows {
+        /// Last time before [s].
+        from_s: f64,
+        /// First time after [s].
+        to_s: f64,
+        /// Longest step that is bridged [s].
         longest_s: f64,
     },
     /// Time steps of very different lengths.
@@ -165,10 +183,52 @@ pub enum MotionError {
         /// Largest allowed distance from the recording [s].
         farthest_s: f64,
     },
+    /// A recording with too few frames.
+    #[error(
+        "the recording has {found} frame{}; expected at least {expected}, which rates and accelerations need. hint: is \
+         it a trial of a standing person, or cut off?", if *found == 1 { "" } else { "s" }
+    )]
+    TooFewFrames {
+        /// Number of frames.
+        found: usize,
+        /// Number of frames that are needed.
+        expected: usize,
+    },
+    /// A range without a recorded frame.
+    #[error(
+        "the range from {from_s} s to {to_s} s is outside of the recorded time, {first_s:.3} s to {last_s:.3} s. hint: \
+         choose a range inside the recorded time"
+    )]
+    Outside {
+        /// Start of the requested range [s].
+        from_s: f64,
+        /// End of the requested range [s].
+        to_s: f64,
+        /// Start of the recording [s].
+        first_s: f64,
+        /// End of the recording [s].
+        last_s: f64,
+    },
+    /// Motion and forces with hardly any common time.
+    #[error(
+        "motion and forces have {} in common: the motion lasts from {:.3} s to {:.3} s, the forces from {:.3} s to \
+         {:.3} s. hint: give both the same origin of time, or choose the forces of this trial",
+        if *found == 0 { "no time".to_owned() } else { format!("only {found} frames") },
+        motion_s[0], motion_s[1], forces_s[0], forces_s[1]
+    )]
+    NoCommonTime {
+        /// Frames of the motion with forces.
+        found: usize,
+        /// Start and end of the motion [s].
+        motion_s: [f64; 2],
+        /// Start and end of the forces [s].
+        forces_s: [f64; 2],
+    },
     /// Too few frames in the range.
     #[error(
-        "the range from {from_s} s to {to_s} s has {found} frames; expected at least {expected}. hint: motion and \
-         forces are both known from {first_s:.3} s to {last_s:.3} s"
+        "the range from {from_s} s to {to_s} s has {found} frame{}; expected at least {expected}, which rates and \
+         accelerations need. hint: choose a longer range; motion and forces are both known from {first_s:.3} s to \
+         {last_s:.3} s", if *found == 1 { "" } else { "s" }
     )]
     TooShort {
         /// Number of frames in the range.
@@ -200,6 +260,26 @@ pub enum MotionError {
         /// Why.
         source: SplineError,
     },
+}
+
+impl MotionError {
+    /// A range that is too short; the other reason if all of it is outside of the recording.
+    #[must_use]
+    pub fn or_outside(self) -> MotionError {
+        match self {
+            MotionError::TooShort { found: 0, from_s, to_s, first_s, last_s, .. }
+                if from_s > last_s || to_s < first_s =>
+            {
+                MotionError::Outside { from_s, to_s, first_s, last_s }
+            }
+            other => other,
+        }
+    }
+}
+
+/// A time without numbers for a message.
+fn span(from_s: f64, to_s: f64) -> String {
+    if to_s > from_s { format!("from {from_s:.4} s to {to_s:.4} s") } else { format!("at {from_s:.4} s") }
 }
 
 impl Motion {

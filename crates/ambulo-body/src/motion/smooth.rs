@@ -98,12 +98,13 @@ pub fn smooth(
 ) -> Result<SmoothMotion, MotionError> {
     let SmoothSettings { smoother, window, rate_hz } = settings;
     check_range(motion, window)?;
+    let recorded = motion;
     let motion = &*usable(model, motion, window);
     let whole = uniform_grid(motion, window, findings)?;
     let resampled = TimeGrid::through(&motion.times).is_none();
     let (first, frames) = whole.inside(window);
     if frames < FEWEST_SAMPLES {
-        return Err(too_short(motion, window, frames));
+        return Err(too_short(recorded, window, frames));
     }
     let grid = at_rate(TimeGrid { start_s: whole.time(first), frames, ..whole }, rate_hz)?;
     let frames = grid.frames;
@@ -113,6 +114,7 @@ pub fn smooth(
         let is_used =
             |column: &&Vec<f64>| matches!(coordinate.drive, Drive::Free) || column.iter().all(|x| x.is_finite());
         let Some(column) = column.as_ref().filter(is_used) else {
+            report_unused(coordinate, column.as_ref(), findings);
             out.columns.push(None);
             out.noise.push(None);
             continue;
@@ -170,16 +172,27 @@ fn at_rate(grid: TimeGrid, rate_hz: Option<f64>) -> Result<TimeGrid, MotionError
     Ok(TimeGrid { step_s: 1.0 / rate_hz, frames: intervals as usize + 1, ..grid })
 }
 
+/// Why a range has too few frames: the whole recording has, it lies outside, or it is short.
 fn too_short(motion: &Motion, window: Window, found: usize) -> MotionError {
+    let expected = FEWEST_SAMPLES;
+    if motion.times.len() < FEWEST_SAMPLES {
+        return MotionError::TooFewFrames { found: motion.times.len(), expected };
+    }
     let first_s = motion.times.first().copied().unwrap_or(f64::NAN);
     let last_s = motion.times.last().copied().unwrap_or(f64::NAN);
-    MotionError::TooShort {
-        found,
-        expected: FEWEST_SAMPLES,
-        from_s: window.from_s.unwrap_or(first_s),
-        to_s: window.to_s.unwrap_or(last_s),
-        first_s,
-        last_s,
+    let (from_s, to_s) = (window.from_s.unwrap_or(first_s), window.to_s.unwrap_or(last_s));
+    MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }.or_outside()
+}
+
+/// Reports a recorded column that is not used because of its gaps, although the model determines the coordinate.
+fn report_unused(coordinate: &Coordinate, column: Option<&Vec<f64>>, findings: &mut Findings) {
+    if column.is_some_and(|column| column.iter().any(|x| x.is_finite())) {
+        let message = format!(
+            "the recorded values of `{}` have gaps; the model locks, prescribes or couples this coordinate, and its \
+             values were used",
+            coordinate.name
+        );
+        findings.report(Code::MotionCoupledMismatch, message);
     }
 }
 
@@ -196,7 +209,7 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
     if longest > LONGEST_GAP_S.max(2.0 * median) {
         let gap = motion.times.windows(2).find(|w| w[1] - w[0] >= longest).unwrap_or(&[0.0, 0.0]);
         let (from_s, to_s) = (gap[0], gap[1]);
-        return Err(MotionError::Gap { column: "time".into(), from_s, to_s, longest_s: LONGEST_GAP_S });
+        return Err(MotionError::NoRows { from_s, to_s, longest_s: LONGEST_GAP_S });
     }
     let (start_s, end_s) = (motion.times[0], motion.times[motion.times.len() - 1]);
     let intervals = ((end_s - start_s) / median).round();

@@ -3,10 +3,13 @@
 //! | array | content |
 //! |---|---|
 //! | `poses` | one row a frame: a rotation vector of three numbers for each joint [rad], the pelvis first; the first 22 joints are the same in all models |
-//! | or `root_orient`, `pose_body` | the same, the pelvis apart |
-//! | `trans` | position of the body [m] |
-//! | `mocap_framerate` or `mocap_frame_rate` | frames per second |
+//! | or `root_orient` (`global_orient`), `pose_body` (`body_pose`) | the same, the pelvis apart |
+//! | `trans` (`transl`) | position of the body [m] |
+//! | `mocap_framerate` or `mocap_frame_rate`, `frame_rate`, `fps` | frames per second |
 //! | `betas` | shape of the body; needs the model's file |
+//!
+//! Rotations may also be matrices of three by three numbers. The numbers of other representations have no agreed order
+//! (quaternions with w first or last, six numbers of two rows or of two columns), so that they are refused by name.
 //!
 //! A rotation turns the axes of a joint from those of its parent; in the resting pose, a T, all are x to the left, y
 //! up, z forward. The file has no lengths: they come from the user's own SMPL file, J = R (v + S beta) with its joint
@@ -21,7 +24,7 @@ use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, BuildError, Dimensions};
 use crate::numerics::elementary::{asin, atan2};
 use crate::numerics::median;
-use crate::spatial::{Mat3, Vec3, rotation, rotation_between};
+use crate::spatial::{Mat3, Vec3, rotation, rotation_between, rotation_vector};
 use ambulo_formats::bvh::{Bvh, Channel, ChannelKind, Joint};
 use ambulo_formats::npz::{Data, Npz};
 
@@ -60,7 +63,20 @@ const TREE: [(&str, Option<usize>); JOINTS] = [
 const LEFT_FOOT: usize = 10;
 const RIGHT_FOOT: usize = 11;
 /// Names of the frame rate.
-const RATES: [&str; 4] = ["mocap_framerate", "mocap_frame_rate", "framerate", "fps"];
+const RATES: [&str; 5] = ["mocap_framerate", "mocap_frame_rate", "framerate", "frame_rate", "fps"];
+/// Names of the position of the body.
+const PLACES: [&str; 2] = ["trans", "transl"];
+/// Names of the rotation of the pelvis, and of the rotations of the other joints.
+const ROOTS: [&str; 2] = ["root_orient", "global_orient"];
+const BODIES: [&str; 2] = ["pose_body", "body_pose"];
+/// Joints with the pelvis: of the body alone, of SMPL, SMPL-H and SMPL-X.
+const COUNTS: [usize; 4] = [22, 24, 52, 55];
+/// Most joints that any model has.
+const MOST_JOINTS: usize = 60;
+/// Longest rotation vector [rad]: two turns. A network leaves them within one; in degrees a bent knee has 60.
+const LONGEST_RAD: f64 = 4.0 * std::f64::consts::PI;
+/// Largest difference of R Rᵀ from the unit matrix.
+const MATRIX_DEFECT: f64 = 1e-2;
 
 /// A motion without lengths.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,6 +148,28 @@ pub enum SmplError {
         /// Allowed values.
         expected: &'static str,
     },
+    /// Rotations in a representation without an agreed order of its numbers.
+    #[error(
+        "the array `{array}` has {found} for each joint, whose order differs between programs; expected rotation \
+         vectors \
+         (3 numbers) or matrices (3 x 3). hint: convert them, as by scipy's Rotation(...).as_rotvec()"
+    )]
+    Representation {
+        /// The array.
+        array: String,
+        /// The representation.
+        found: &'static str,
+    },
+    /// Numbers that are no rotations.
+    #[error("the array `{array}` has {found}; expected {expected}")]
+    NoRotation {
+        /// The array.
+        array: String,
+        /// What the numbers are.
+        found: String,
+        /// Allowed values.
+        expected: &'static str,
+    },
     /// Rotations and places of different numbers of frames.
     #[error("found rotations of {poses} frames and `trans` of {trans} frames; expected the same number")]
     Frames {
@@ -188,14 +226,135 @@ fn numbers<'n>(npz: &'n Npz, name: &str) -> Option<Result<Shaped<'n>, SmplError>
     })
 }
 
-/// Rows of at least `width` numbers; further axes are one row together.
-fn rows<'n>(npz: &'n Npz, name: &str, width: usize, expected: &'static str) -> Result<Vec<&'n [f64]>, SmplError> {
-    let (values, shape) = numbers(npz, name).unwrap_or_else(|| Err(no_motion(npz, name)))?;
-    let found = shape.get(1..).map_or(0, |lengths| lengths.iter().product());
-    if shape.len() < 2 || found < width || (width == 3 && found != 3) {
-        return Err(SmplError::Shape { array: name.to_owned(), found: shape.to_vec(), expected });
+/// How the rotations of an array are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Form {
+    Vectors,
+    Matrices,
+}
+
+impl Form {
+    fn size(self) -> usize {
+        match self {
+            Form::Vectors => 3,
+            Form::Matrices => 9,
+        }
     }
-    Ok(values.chunks_exact(found).collect())
+}
+
+/// An array of rotations by its shape.
+struct Rotations {
+    name: &'static str,
+    form: Form,
+    frames: usize,
+    /// Numbers of a frame.
+    width: usize,
+}
+
+const POSES: &str = "frames x 66 or more: 72 for SMPL, 156 for SMPL-H, 165 for SMPL-X; or frames x joints x 3 (x 3)";
+
+impl Rotations {
+    /// The form of `joints` joints or more in the array with one of these names.
+    fn of(npz: &Npz, aliases: &[&'static str], joints: usize) -> Result<Rotations, SmplError> {
+        let (name, (_, shape)) = first(npz, aliases)?;
+        let inner: &[usize] = shape.get(1..).unwrap_or_default();
+        let width: usize = inner.iter().product();
+        let wrong = || SmplError::Shape { array: name.to_owned(), found: shape.to_vec(), expected: POSES };
+        let has = |count: usize| (joints == 1 && count == 1) || (joints > 1 && count >= joints);
+        // A last axis shows the form; a flat row shows it by its length.
+        let by_axes = match inner {
+            [.., 3, 3] if has(width / 9) => Some(9),
+            [.., _, last @ (3 | 4 | 6 | 9)] if has(width / last) => Some(*last),
+            [last @ (3 | 4 | 6 | 9)] if joints == 1 => Some(*last),
+            _ => None,
+        };
+        let of_pelvis = if joints == JOINTS { 0 } else { 1 };
+        let is_usual = |size: &usize| COUNTS.iter().any(|count| width == size * (count - of_pelvis));
+        let is_flat = inner.len() == 1 && joints > 1;
+        let by_length = || [3, 9, 4, 6].into_iter().find(is_usual).filter(|_| is_flat);
+        let vectors =
+            || (is_flat && width.is_multiple_of(3) && (joints..=MOST_JOINTS).contains(&(width / 3))).then_some(3);
+        let form = match by_axes.or_else(by_length).or_else(vectors) {
+            Some(3) => Form::Vectors,
+            Some(9) => Form::Matrices,
+            Some(size) => {
+                let found = if size == 4 { "quaternions (4 numbers)" } else { "6 numbers" };
+                return Err(SmplError::Representation { array: name.to_owned(), found });
+            }
+            None => return Err(wrong()),
+        };
+        Ok(Rotations { name, form, frames: shape[0], width })
+    }
+
+    /// The rotation vectors of the first joints, one row per frame [rad].
+    fn read(&self, npz: &Npz, joints: usize) -> Result<Vec<Vec<Vec3>>, SmplError> {
+        let values = numbers(npz, self.name).unwrap_or_else(|| Err(no_motion(npz, self.name)))?.0;
+        let size = self.form.size();
+        let row = |row: &[f64]| row.chunks_exact(size).take(joints).map(|part| self.vector(part)).collect();
+        let rows: Vec<Vec<Vec3>> = values.chunks_exact(self.width).map(row).collect::<Result<_, SmplError>>()?;
+        let longest = rows.iter().flatten().map(|v| v.norm()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if longest > LONGEST_RAD {
+            let found = format!("rotations of up to {longest:.0} rad, which look like degrees");
+            return Err(self.no_rotation(found, "rotation vectors in radians"));
+        }
+        Ok(rows)
+    }
+
+    fn vector(&self, part: &[f64]) -> Result<Vec3, SmplError> {
+        if self.form == Form::Vectors {
+            return Ok(vector(part));
+        }
+        if part.iter().any(|x| !x.is_finite()) {
+            return Ok(Vec3::repeat(f64::NAN));
+        }
+        let matrix = Mat3::from_row_slice(part);
+        if (matrix * matrix.transpose() - Mat3::identity()).amax() > MATRIX_DEFECT || matrix.determinant() < 0.0 {
+            let found = "nine numbers for each joint that are no rotation matrices".to_owned();
+            return Err(self.no_rotation(found, "rotation matrices, row by row, or rotation vectors"));
+        }
+        Ok(rotation_vector(&matrix))
+    }
+
+    fn no_rotation(&self, found: String, expected: &'static str) -> SmplError {
+        SmplError::NoRotation { array: self.name.to_owned(), found, expected }
+    }
+}
+
+/// The first of these arrays that the file has, with its name; the error names the first.
+fn first<'n>(npz: &'n Npz, aliases: &[&'static str]) -> Result<(&'static str, Shaped<'n>), SmplError> {
+    let found = aliases.iter().find_map(|name| Some((*name, numbers(npz, name)?)));
+    let (name, shaped) = found.ok_or_else(|| no_motion(npz, aliases[0]))?;
+    Ok((name, shaped?))
+}
+
+/// Shapes of the arrays of a motion.
+struct Layout {
+    /// Of all joints, or of the pelvis and the other joints.
+    rotations: Vec<(Rotations, usize)>,
+    places: &'static str,
+    frames: usize,
+}
+
+impl Layout {
+    fn of(npz: &Npz) -> Result<Layout, SmplError> {
+        let (places, (_, shape)) = first(npz, &PLACES)?;
+        let [frames, 3] = *shape else {
+            let array = places.to_owned();
+            return Err(SmplError::Shape { array, found: shape.to_vec(), expected: "frames x 3" });
+        };
+        let rotations = if npz.array("poses").is_some() {
+            vec![(Rotations::of(npz, &["poses"], JOINTS)?, JOINTS)]
+        } else if BODIES.iter().any(|name| npz.array(name).is_some()) {
+            let root = Rotations::of(npz, &ROOTS, 1)?;
+            vec![(root, 1), (Rotations::of(npz, &BODIES, JOINTS - 1)?, JOINTS - 1)]
+        } else {
+            return Err(no_motion(npz, "poses"));
+        };
+        if let Some((odd, _)) = rotations.iter().find(|(part, _)| part.frames != frames) {
+            return Err(SmplError::Frames { poses: odd.frames, trans: frames });
+        }
+        Ok(Layout { rotations, places, frames })
+    }
 }
 
 fn names(npz: &Npz) -> String {
@@ -213,42 +372,44 @@ fn vector(three: &[f64]) -> Vec3 {
 }
 
 impl SmplMotion {
+    /// Whether a motion has an array of this name.
+    #[must_use]
+    pub fn is_array(name: &str) -> bool {
+        let lists: [&[&str]; 5] = [&PLACES, &ROOTS, &BODIES, &RATES, &["poses", "betas"]];
+        lists.iter().any(|names| names.contains(&name))
+    }
+
+    /// Checks names and shapes of the arrays, which may be without their elements.
+    ///
+    /// # Errors
+    /// As [`SmplMotion::from_npz`].
+    pub fn check_shapes(npz: &Npz) -> Result<(), SmplError> {
+        Layout::of(npz).map(|_| ())
+    }
+
     /// Reads a motion.
     ///
     /// # Errors
     /// Arrays that are missing, of another type or shape, or without a frame rate.
     pub fn from_npz(npz: &Npz) -> Result<SmplMotion, SmplError> {
-        let translations = rows(npz, "trans", 3, "frames x 3")?;
-        let frames = translations.len();
-        let poses: Vec<Vec<f64>> = match npz.array("poses") {
-            Some(_) => {
-                let poses =
-                    rows(npz, "poses", 3 * JOINTS, "frames x 66 or more: 72 for SMPL, 156 for SMPL-H, 165 for SMPL-X")?;
-                poses.iter().map(|row| row[..3 * JOINTS].to_vec()).collect()
-            }
-            None => {
-                if npz.array("pose_body").is_none() {
-                    return Err(no_motion(npz, "poses"));
-                }
-                let body = rows(npz, "pose_body", 3 * JOINTS - 3, "frames x 63")?;
-                let root = rows(npz, "root_orient", 3, "frames x 3")?;
-                root.iter().zip(body).map(|(root, body)| [&root[..3], &body[..3 * JOINTS - 3]].concat()).collect()
-            }
-        };
-        if poses.len() != frames {
-            return Err(SmplError::Frames { poses: poses.len(), trans: frames });
-        }
+        let Layout { rotations, places, frames } = Layout::of(npz)?;
         let rate = RATES.iter().find_map(|name| numbers(npz, name)).unwrap_or_else(|| Err(no_motion(npz, RATES[0])))?;
         let rate_hz = rate.0.first().copied().unwrap_or(f64::NAN);
         if !(RATES_HZ[0]..=RATES_HZ[1]).contains(&rate_hz) {
             return Err(SmplError::Rate { found: rate_hz });
         }
+        let parts: Vec<Vec<Vec<Vec3>>> =
+            rotations.iter().map(|(part, joints)| part.read(npz, *joints)).collect::<Result<_, SmplError>>()?;
+        let of_frame = |frame: usize| {
+            let mut joints = parts.iter().flat_map(|part| part[frame].iter().copied());
+            std::array::from_fn(|_| joints.next().unwrap_or(Vec3::repeat(f64::NAN)))
+        };
         let betas = numbers(npz, "betas").and_then(Result::ok).map_or(Vec::new(), |(betas, _)| betas.to_vec());
-        let rotations = poses.iter().map(|row| std::array::from_fn(|joint| vector(&row[3 * joint..3 * joint + 3])));
+        let (values, _) = numbers(npz, places).unwrap_or_else(|| Err(no_motion(npz, places)))?;
         let motion = SmplMotion {
             rate_hz,
-            rotations: rotations.collect(),
-            translations: translations.iter().map(|row| vector(row)).collect(),
+            rotations: (0..frames).map(of_frame).collect(),
+            translations: values.chunks_exact(3).map(vector).collect(),
             betas,
         };
         motion.check_unit()?;
@@ -344,6 +505,12 @@ fn angles_zxy(r: &Mat3) -> [f64; 3] {
 }
 
 impl SmplBody {
+    /// Whether a model has an array of this name that is needed here.
+    #[must_use]
+    pub fn is_array(name: &str) -> bool {
+        ["v_template", "shapedirs", "J_regressor"].contains(&name)
+    }
+
     /// Joint centres of the built-in body of this stature.
     ///
     /// # Errors

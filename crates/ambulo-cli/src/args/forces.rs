@@ -1,6 +1,8 @@
 //! Options of `ambulo forces`.
 
-use super::values::{number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds};
+use super::values::{
+    kilograms, metres, number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds,
+};
 use super::{CheckArgs, Handling, OUT, PrintArgs, ReplaceArgs};
 use crate::request::{CalibrateRequest, ForcesRequest};
 use ambulo::analysis::Adjustable;
@@ -31,15 +33,15 @@ a .mvnx (Xsens) drive the built-in body directly. A .sto with quaternions (OpenS
 built-in body of --mass and --height; --static is then a .sto of the person standing. A .b3d has its own model
 and coordinates; with --model its markers are fitted instead. Force plates in a C3D are used unless --grf is
 given. docs/MARKERS.md lists the marker names. If ground forces were not measured, they are predicted from the
-motion; with --predict, the prediction is compared with the measurement. With --track, motion and forces agree
-to rounding, without force plates.
+motion, also for single steps alongside the plates (stances.csv lists them); with --predict, the prediction is
+compared with the measurement. With --track, motion and forces agree to rounding, without force plates.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json, report.html (open it
-with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device moments_biological.sto; with
-predicted forces grf_sd.mot; with --predict or --track and force plates grf_measured.mot. The results of an
-earlier run in DIR are replaced as a whole; other files stay. docs/OUTPUTS.md describes the files. --keep
-writes only some of them; summary.json is always written.
+events.csv, stances.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json,
+report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device
+moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates
+grf_measured.mot. The results of an earlier run in DIR are replaced as a whole; other files stay.
+docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is always written.
 
 The verdict states whether a person could make this motion (strength, joint ranges, power, friction, centre of
 pressure, sliding, flight, residual forces; docs/JUDGEMENT.md). Exit code: 0 if results were written, 2 if
@@ -290,14 +292,18 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
+    /// The person in recordings of several people: the prefix of the marker names, as Anna for Anna:LASI [default: such
+    /// recordings are refused].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) subject: Option<String>,
     /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A
     /// given model is scaled to it [default: as measured by the force plates or stated in the recording; with --model
     /// the model's].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = kilograms)]
     pub(crate) mass: Option<f64>,
     /// Stature [m]; a given model is scaled to it [default: as stated in the recording, or estimated from the markers;
     /// with --model the model's].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = metres)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments())]
@@ -309,10 +315,16 @@ pub(crate) struct SubjectArgs {
     /// are added.
     #[arg(long, value_name = "FILE")]
     pub(crate) marker_set: Option<PathBuf>,
-    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; may be repeated [default:
-    /// detected].
-    #[arg(long, value_name = "N=r|l|off")]
+    /// Which foot is on a force plate of the C3D, such as 1=r; `off` ignores a plate; flip-x, flip-y (a channel has the
+    /// wrong sign), turn-90, turn-180 and turn-270 (to the left, seen from above) correct it, also together as in
+    /// 1=r+flip-y; may be repeated [default: detected].
+    #[arg(long, value_name = "N=r|l|off|...")]
     pub(crate) plate: Vec<PlateFoot>,
+    /// By how much the measured forces were recorded late against the motion [s]; they are moved to earlier times by
+    /// it. Negative if they are early. A warning (forces.delayed) states the delay that was found.
+    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true,
+        hide_default_value = true)]
+    pub(crate) force_delay: f64,
     /// Marker fit: frame by frame, or all frames together with a prior on the change of acceleration [default: frames
     /// for markers, trajectory for keypoints of video].
     #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
@@ -341,6 +353,7 @@ impl SubjectArgs {
     fn job(self) -> Job {
         Job {
             standing: self.still,
+            subject: self.subject,
             size: StatedSize { mass_kg: self.mass, height_m: self.height },
             segments: self.figure,
             markers: self.markers,
@@ -351,6 +364,11 @@ impl SubjectArgs {
     }
 
     fn settings(&self) -> Processing {
-        Processing { fit: self.fit, longest_gap_s: self.max_gap, ..Processing::default() }
+        Processing {
+            fit: self.fit,
+            longest_gap_s: self.max_gap,
+            force_delay_s: self.force_delay,
+            ..Processing::default()
+        }
     }
 }

@@ -32,6 +32,7 @@ pub(crate) use values::{Endpoint, TimedValue, Values};
 pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 pub(crate) use words_of_request::{line, with_options};
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -105,6 +106,25 @@ pub(crate) struct ReplaceArgs {
     /// Also replace existing files that were not written by Ambulo or were changed since; never an input.
     #[arg(long)]
     force: bool,
+}
+
+/// The same refusal; an option of `ambulo forces` that was typed before the `--` of another verb gets the right place
+/// in place of clap's advice to quote it.
+pub(crate) fn with_place_of_options(mut refused: clap::Error) -> clap::Error {
+    let argument = match refused.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(argument)) if refused.kind() == ErrorKind::UnknownArgument => argument.clone(),
+        _ => return refused,
+    };
+    let has_trailing = refused.get(ContextKind::Usage).is_some_and(|usage| usage.to_string().contains("[-- <OPTIONS>"));
+    let name = argument.trim_start_matches('-').split('=').next().unwrap_or_default().to_owned();
+    let forces = ForcesArgs::augment_args(clap::Command::new("forces"));
+    if has_trailing && forces.get_arguments().any(|option| option.get_long() == Some(&name)) {
+        let tip = format!(
+            "`{argument}` is an option of `ambulo forces`; such options follow after `--`, such as `-- {argument} ...`"
+        );
+        refused.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    refused
 }
 
 /// How to treat an existing file that no earlier run wrote.

@@ -1,6 +1,6 @@
 //! Options of `ambulo validate`.
 
-use super::values::{Figure, jobs, number, segments};
+use super::values::{Figure, jobs, kilograms, metres, segments};
 use super::{PrintArgs, ReplaceArgs, json};
 use ambulo::job::json as text;
 use ambulo::job::trials::TrialFiles;
@@ -35,11 +35,11 @@ pub(crate) struct ValidateArgs {
     pub(crate) folder: PathBuf,
     /// Body mass of the person, if DIR has the trials of one person [kg] [default: as in trials.toml, measured by the
     /// force plates or stated in the recordings].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = kilograms)]
     pub(crate) mass: Option<f64>,
     /// Stature of the person, if DIR has the trials of one person [m] [default: as in trials.toml, stated in the
     /// recordings or estimated].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = metres)]
     pub(crate) height: Option<f64>,
     /// Table of segment masses of the built-in body: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name(), value_parser = segments().map(Figure))]

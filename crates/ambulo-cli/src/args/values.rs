@@ -84,6 +84,29 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "expected a number, such as 1.2".into())
 }
 
+/// A number that its unit may follow: `8` or `8%`; the library checks its range.
+pub(super) fn percent(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    number.parse().map_err(|_| "expected a number of percent, such as 8 or 8%".into())
+}
+
+/// A body mass: `75` or `75kg`; the library checks its range.
+pub(super) fn kilograms(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches("kg").trim_end();
+    number.parse().map_err(|_| "expected a number of kilograms, such as 75 or 75kg".into())
+}
+
+/// A stature: `1.75`, `1.75m` or `175cm`; the library checks its range.
+pub(super) fn metres(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, size) = match text.strip_suffix("cm") {
+        Some(number) => (number, 0.01),
+        None => (text.trim_end_matches('m'), 1.0),
+    };
+    let metres = number.trim_end().parse::<f64>().map(|number| number * size);
+    metres.map_err(|_| "expected a number of metres, such as 1.75, 1.75m or 175cm".into())
+}
+
 /// Any whole number; the library checks its range.
 pub(super) fn whole_number(text: &str) -> Result<usize, String> {
     text.trim().parse().map_err(|_| "expected a whole number, such as 3".into())
@@ -251,7 +274,9 @@ impl FromStr for Values {
             "expected numbers separated by commas, such as 60,80,100, or FROM:TO:STEP, such as 0.6:2.0:0.2".to_owned()
         };
         let numbers = |separator: char| {
-            text.split(separator).map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+            let plain = |part: &str| part.trim().trim_end_matches('%').trim_end_matches("kg").trim_end().to_owned();
+            let number = move |part: &str| plain(part).parse().ok();
+            text.split(separator).map(move |part| number(part).filter(|x: &f64| x.is_finite()))
         };
         if !text.contains(':') {
             return numbers(',').collect::<Option<Vec<f64>>>().map(Values).ok_or_else(expected);

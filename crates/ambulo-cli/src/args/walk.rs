@@ -2,7 +2,8 @@
 
 use super::forces::AngleConvention;
 use super::values::{
-    Loads, TimedValue, Values, load, number, outputs_of_demo, outputs_of_run, outputs_of_sweep, weakness, whole_number,
+    Loads, TimedValue, Values, kilograms, load, metres, number, outputs_of_demo, outputs_of_run, outputs_of_sweep,
+    percent, weakness, whole_number,
 };
 use super::{CheckArgs, OUT, PrintArgs, ReplaceArgs, json};
 use ambulo::job::Job;
@@ -250,7 +251,7 @@ pub(crate) struct GaitArgs {
 pub(crate) struct ConditionArgs {
     /// Slope of the ground, -40 to 40 percent; uphill is positive. This and the following options imply
     /// `--mode predict`.
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent)]
     pub(crate) slope: Option<f64>,
     /// Carried load: on the back, half in each hand, or at the pelvis [default: back].
     #[arg(long, value_name = "KG[:back|hands|pelvis]", allow_negative_numbers = true, value_parser = load)]
@@ -282,10 +283,10 @@ pub(crate) struct FigureArgs {
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name())]
     pub(crate) figure: String,
     /// Body mass [kg] [default: 75, de-leva-female 60, faure-1997 80].
-    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = kilograms)]
     pub(crate) mass: Option<f64>,
     /// Stature [m] [default: 1.75, de-leva-female 1.65, faure-1997 1.80].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = metres)]
     pub(crate) height: Option<f64>,
     /// Use feet of one segment, without a toe joint.
     #[arg(long)]

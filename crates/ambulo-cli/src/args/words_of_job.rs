@@ -20,6 +20,7 @@ pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {
     words.value("--heading", job.sensors.heading.as_ref());
     words.value("--earth", job.sensors.earth);
     words.path("--static", job.standing.as_ref());
+    words.value("--subject", job.subject.as_ref());
     words.path("--grf", job.forces.table.as_ref());
     words.path("--loads", job.forces.loads.as_ref());
     words.value("--right", job.forces.right.as_ref());
@@ -54,6 +55,7 @@ fn of_settings(settings: &Processing, words: &mut Words) {
     words.value("--filter", Some(settings.filter).filter(|f| *f != defaults.filter).map(|f| word(&Filter::ALL, f)));
     words.value("--cutoff", settings.cutoff);
     words.value("--force-cutoff", settings.force_cutoff);
+    words.value("--force-delay", Some(settings.force_delay_s).filter(|delay| delay.abs() > 0.0));
     words.value("--order", Some(settings.order).filter(|order| *order != defaults.order));
     let consistent = settings.residual_reduction.map(|what| word(&Adjustable::ALL, what));
     // This option takes its value in the same word.

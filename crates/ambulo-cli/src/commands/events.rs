@@ -7,7 +7,7 @@ use ambulo::analysis::{LaboratoryRecording, event_agreement};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::{FootMotion, foot_motion};
 use ambulo::ground::phases::contacts_from_force;
-use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates};
+use ambulo::ground::plates::{ContactQuality, FeetOnPlates, feet_on_plates, plates_under_feet};
 use ambulo::job::ending;
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
@@ -43,6 +43,7 @@ fn from_c3d(bytes: &[u8], shown: &str, findings: &mut Findings) -> Result<Vec<Ev
     let LaboratoryFile { recording, events, .. } = LaboratoryFile::from_c3d(bytes, shown, findings)?;
     let LaboratoryRecording { markers, plates, .. } = in_world(&recording, findings);
     let motion = foot_motion(&markers, findings);
+    let plates = plates_under_feet(&markers, plates, &motion, findings);
     let feet = feet_on_plates(&markers, &plates, &motion, &[], findings);
     let of_plates = of_plates(&feet, &plates);
     Ok(vec![

@@ -1,6 +1,6 @@
 //! Prints what `batch` found and computed.
 
-use super::{plural, print_line, say};
+use super::{plural, print_json, print_line, say};
 use crate::args::PrintArgs;
 use ambulo::job::trials::PlannedTrial;
 use anyhow::Result;
@@ -91,7 +91,7 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
                     "error": trial.broken })
         });
         let text = json!({ "listed": listed.collect::<Vec<_>>(), "not_computed": others });
-        return print_line(&serde_json::to_string_pretty(&text)?);
+        return print_json(&text);
     }
     for trial in trials {
         let files = &trial.files;
@@ -138,7 +138,7 @@ pub(crate) fn batch(
     let worst: Vec<&BatchRow> = worst.filter(|row| ranked || row.error.is_some()).collect();
     if print.json {
         let text = json!({ "counts": counts, "ranking": worst, "output": output });
-        return print_line(&serde_json::to_string_pretty(&text)?);
+        return print_json(&text);
     }
     print_line(&format!("  computed  {} of {} trial{}", counts.computed, counts.trials, plural(counts.trials)))?;
     let words = |of: &BTreeMap<String, usize>| {

@@ -1,6 +1,6 @@
 //! Prints what `calibrate` found.
 
-use super::{print_line, quoted};
+use super::{print_json, print_line, quoted};
 use crate::args::PrintArgs;
 use ambulo::ground::predict::{KNOTS, PersonalErrors, StanceCurve};
 use anyhow::Result;
@@ -35,7 +35,7 @@ pub(crate) fn calibrate(person: &PersonalErrors, trials: usize, output: &Path, p
             "feet": feet,
             "written": output.display().to_string(),
         });
-        return print_line(&serde_json::to_string_pretty(&all)?);
+        return print_json(&all);
     }
     print_line(&format!("  person    {:.1} kg, {:.3} m; trials {trials}", person.mass_kg, person.stature_m))?;
     for (side, stances, [up, forward, outwards], along_mm) in feet {

@@ -1,8 +1,8 @@
 //! Prints the outcome of `forces`, `walk` and `demo`.
 
 use super::{
-    comparison, consistency, counted_reasons, print_findings, print_line, print_verdict, print_warnings, quoted,
-    reasons_shown, subject,
+    comparison, consistency, counted_reasons, print_findings, print_json, print_line, print_verdict, print_warnings,
+    quoted, reasons_shown, subject,
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
@@ -23,7 +23,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
     }
     if print.json {
         print_findings(&summary.findings);
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     if print.verbose {
         print_findings(&summary.findings);
@@ -94,8 +94,9 @@ fn outline(summary: &Summary) -> Result<()> {
         print_line(&format!("  walk      {}", parts.collect::<Vec<_>>().join(", ")))?;
     }
     let [from, to] = summary.window_s;
-    let Summary { frames, rate_hz, ground: Ground { source, .. }, .. } = summary;
-    print_line(&format!("  forces    {source}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz"))?;
+    let Summary { frames, rate_hz, ground, .. } = summary;
+    print_line(&format!("  forces    {}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz", ground.source))?;
+    print_shares(ground)?;
     if let Some(comparison) = &summary.comparison {
         comparison::print_vertical(comparison)?;
     }
@@ -228,14 +229,20 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
 
 fn print_ground(summary: &Summary) -> Result<()> {
     let motion = filter(&summary.filter.motion);
-    let Ground { source, ref rule, threshold_n } = summary.ground;
+    let Ground { source, ref rule, threshold_n, .. } = summary.ground;
     if source == GroundOrigin::None {
         return print_line(&format!("  filter    motion {motion}\n  ground    none"));
     }
     print_line(&format!("  filter    motion {motion}, forces {}", filter(&summary.filter.force)))?;
-    let rule = rule.as_ref().filter(|_| source == GroundOrigin::Predicted);
+    let rule = rule.as_ref().filter(|_| matches!(source, GroundOrigin::Predicted | GroundOrigin::Mixed));
     let rule = rule.map_or(String::new(), |rule| format!(", {rule}"));
-    print_line(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))
+    print_line(&format!("  ground    {source}{rule} (a foot counts as unloaded below {threshold_n} N)"))?;
+    print_shares(&summary.ground)
+}
+
+/// Of which share of each leg's loaded time the load was measured, if it was not all of it.
+fn print_shares(ground: &Ground) -> Result<()> {
+    ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }
 
 /// Prints which checks of a prediction passed, with the values of those that failed.

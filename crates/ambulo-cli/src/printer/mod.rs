@@ -41,7 +41,21 @@ use std::path::Path;
 
 /// Prints a line on standard output. A closed pipe (`ambulo ... | head`) is not an error.
 fn print_line(line: &str) -> Result<()> {
-    match writeln!(stdout(), "{}", visible(line)) {
+    print(&visible(line))
+}
+
+/// Prints JSON on standard output. Codes that could change the terminal are escaped, so that the text stays the same.
+fn print_json(value: &(impl serde::Serialize + ?Sized)) -> Result<()> {
+    let text = serde_json::to_string_pretty(value)?;
+    if !text.contains(is_code) {
+        return print(&text);
+    }
+    let escaped = |c: char| if is_code(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() };
+    print(&text.chars().map(escaped).collect::<String>())
+}
+
+fn print(text: &str) -> Result<()> {
+    match writeln!(stdout(), "{text}") {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e.into()),
         _ => Ok(()),
     }
@@ -50,16 +64,28 @@ fn print_line(line: &str) -> Result<()> {
 /// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed
 /// pipe.
 fn say(line: Arguments<'_>) {
-    let _ = writeln!(stderr(), "{line}");
+    let _ = writeln!(stderr(), "{}", visible(&line.to_string()));
 }
 
-/// The text without control codes, which a file name could have and which could change the terminal.
-fn visible(text: &str) -> Cow<'_, str> {
-    let is_code = |c: char| c.is_control() && c != '\n' && c != '\t';
+/// Whether a character could change the terminal or what the text around it seems to say: a control code, or a mark
+/// that changes the direction of writing or is invisible (Unicode, UAX #9, bidirectional formatting characters).
+pub(crate) fn is_code(c: char) -> bool {
+    let is_hidden =
+        matches!(c, '\u{061c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}');
+    (c.is_control() && c != '\n' && c != '\t') || is_hidden
+}
+
+/// The text without codes, which a file name could have.
+pub(crate) fn visible(text: &str) -> Cow<'_, str> {
     match text.contains(is_code) {
         true => Cow::Owned(text.replace(is_code, "\u{fffd}")),
         false => Cow::Borrowed(text),
     }
+}
+
+/// Prints what the parser of the command line refused.
+pub(crate) fn refused(text: &str) -> std::io::Result<()> {
+    write!(stderr(), "{}", visible(text))
 }
 
 /// A line of its own.
@@ -152,12 +178,12 @@ fn states_as_json(table: &str, changes: &[StateChange], findings: &Findings) -> 
         serde_json::json!({ "time_s": time_s, "machine": machine, "from": from, "to": to, "because": when })
     };
     let run: Vec<_> = changes.iter().map(change).collect();
-    print_line(&serde_json::to_string_pretty(&serde_json::json!({ "states": table, "run": run }))?)
+    print_json(&serde_json::json!({ "states": table, "run": run }))
 }
 
 /// Prints what frames and results of a stream contain, as JSON.
 pub(crate) fn stream_description(description: &impl serde::Serialize) -> Result<()> {
-    print_line(&serde_json::to_string_pretty(description)?)
+    print_json(description)
 }
 
 /// Prints a line about a stream that goes on.
@@ -178,8 +204,9 @@ fn print_findings(findings: &[Finding]) {
 fn print_warnings(findings: &[Finding]) {
     /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.
     const MOST: usize = 4;
-    let (warnings, notes): (Vec<&Finding>, Vec<&Finding>) =
+    let (mut warnings, notes): (Vec<&Finding>, Vec<&Finding>) =
         findings.iter().partition(|finding| finding.severity() == Severity::Warning);
+    warnings.sort_by_key(|finding| !finding.code.comes_first());
     for finding in warnings.iter().take(MOST) {
         let (what, hint) = finding.message.split_once("hint: ").unwrap_or((&finding.message, ""));
         let hint = Some(hint).filter(|hint| !hint.is_empty()).or(hints::of_finding(finding.code));

@@ -1,6 +1,6 @@
 //! Prints the outcome of `reproduce`.
 
-use super::print_line;
+use super::{print_json, print_line};
 use crate::args::PrintArgs;
 use ambulo_paper::{Claim, Sensitivity, former_tally, stored_shares, tally};
 use anyhow::Result;
@@ -11,7 +11,7 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
         return Ok(());
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(claims)?);
+        return print_json(claims);
     }
     let shares = stored_shares();
     for claim in claims {

@@ -1,6 +1,6 @@
 //! Prints what `session` found.
 
-use super::print_line;
+use super::{print_json, print_line};
 use crate::args::PrintArgs;
 use ambulo_report::{SessionSummary, Spread, TrialSummary};
 use anyhow::Result;
@@ -15,7 +15,7 @@ pub(crate) fn session(summary: &SessionSummary, output: &Path, print: PrintArgs)
         return Ok(());
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     let computed = summary.trials.iter().filter(|trial| trial.error.is_none()).count();
     print_line(&format!("  trials    {computed} of {} computed", summary.trials.len()))?;

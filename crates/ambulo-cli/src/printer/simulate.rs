@@ -1,6 +1,6 @@
 //! Prints the outcome of `simulate`.
 
-use super::{print_findings, print_line, print_verdict};
+use super::{print_findings, print_json, print_line, print_verdict};
 use crate::args::PrintArgs;
 use ambulo_results::{ContactSummary, SceneSummary, WorldSummary};
 use anyhow::Result;
@@ -18,7 +18,7 @@ pub(crate) fn simulate(
     }
     print_findings(&summary.findings);
     if print.json {
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     let (world, energy, convergence) = (&summary.world, &summary.energy, &summary.convergence);
     print_line(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;

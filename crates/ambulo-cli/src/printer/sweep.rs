@@ -1,6 +1,6 @@
 //! Prints the outcome of `sweep`.
 
-use super::print_line;
+use super::{print_json, print_line};
 use crate::args::PrintArgs;
 use ambulo_report::SweptWalk;
 use anyhow::Result;
@@ -17,7 +17,7 @@ pub(crate) fn sweep(walks: &[SweptWalk], output: &Path, print: PrintArgs) -> Res
         *verdicts.entry(walk.found.as_ref().map_or("not found", |found| found.verdict)).or_default() += 1;
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(&json!({ "walks": walks.len(), "verdicts": verdicts }))?);
+        return print_json(&json!({ "walks": walks.len(), "verdicts": verdicts }));
     }
     let counts: Vec<String> = verdicts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
     print_line(&format!("  walks     {}: {}", walks.len(), counts.join(", ")))?;

@@ -1,6 +1,6 @@
 //! Prints the outcomes of `compare`, `info`, `convert` and `events`.
 
-use super::{print_findings, print_line};
+use super::{print_findings, print_json, print_line};
 use crate::args::PrintArgs;
 use crate::commands::info::Sheet;
 use ambulo::analysis::{Agreement, EventAgreement};
@@ -42,7 +42,7 @@ impl ComparedColumn {
 
 pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, print: PrintArgs) -> Result<()> {
     if print.json {
-        print_line(&serde_json::to_string_pretty(rows)?)?;
+        print_json(rows)?;
     }
     if print.json || print.quiet {
         return Ok(());
@@ -70,7 +70,7 @@ pub(crate) fn compare(rows: &[ComparedColumn], limit: Option<f64>, print: PrintA
 
 pub(crate) fn info(sheet: &Sheet, print: PrintArgs) -> Result<()> {
     if print.json {
-        print_line(&serde_json::to_string_pretty(&sheet.json())?)?;
+        print_json(&sheet.json())?;
     }
     if print.json || print.quiet {
         return Ok(());
@@ -85,7 +85,7 @@ pub(crate) fn convert(input: &str, written: &[String], findings: &Findings, prin
     print_findings(findings.as_slice());
     if print.json {
         let value = serde_json::json!({ "input": input, "written": written, "findings": findings.as_slice() });
-        return print_line(&serde_json::to_string_pretty(&value)?);
+        return print_json(&value);
     }
     written.iter().try_for_each(|path| print_line(&format!("written: {path}")))
 }
@@ -117,7 +117,7 @@ pub(crate) fn events(
     }
     print_findings(findings.as_slice());
     if print.json {
-        return print_line(&serde_json::to_string_pretty(&events_json(sources, agreements, findings))?);
+        return print_json(&events_json(sources, agreements, findings));
     }
     for source in sources {
         print_line(&format!("{}: {}", source.title, source.events.len()))?;

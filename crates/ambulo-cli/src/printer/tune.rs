@@ -1,6 +1,6 @@
 //! Prints the progress and the outcome of `tune`, and writes its file.
 
-use super::{print_line, quoted, say};
+use super::{print_json, print_line, quoted, say};
 use crate::args::PrintArgs;
 use ambulo::simulation::control::tuning::{PushSettings, TrialOutcome, Tuning};
 use anyhow::Result;
@@ -117,7 +117,7 @@ pub(crate) fn tune(tuned: &TunedGains<'_>, output: &Path, state: &Path, print: P
         return Ok(());
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(&tuned.as_json())?);
+        return print_json(&tuned.as_json());
     }
     print_line(&format!("  figure    {}, {} evaluations", tuned.figure, tuned.evaluations))?;
     for row in tuned.rows() {

@@ -1,6 +1,6 @@
 //! Prints what `validate` found.
 
-use super::print_line;
+use super::{print_json, print_line};
 use crate::args::PrintArgs;
 use ambulo::study::validation::{JudgedTrial, kind_means, persons};
 use ambulo_report::{ListedTrial, listed_section};
@@ -18,7 +18,7 @@ pub(crate) fn found_trials(listed: &[ListedTrial], others: &[(String, String)], 
         return Ok(());
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(&json!({ "listed": listed, "not_judged": others }))?);
+        return print_json(&json!({ "listed": listed, "not_judged": others }));
     }
     print_line(listed_section(listed).table.text().trim_end())?;
     for (name, why) in others {
@@ -39,7 +39,7 @@ pub(crate) fn validate(
         return Ok(());
     }
     if print.json {
-        return print_line(&serde_json::to_string_pretty(summary)?);
+        return print_json(summary);
     }
     let judged: Vec<&JudgedTrial> = judged.iter().collect();
     let count = persons(&judged).len();

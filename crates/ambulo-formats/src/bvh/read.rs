@@ -1,16 +1,30 @@
 //! Reading BVH.
 
 use super::{Bvh, Channel, Joint, MAX_DEPTH, MAX_JOINTS, count_channels, is_frame_time};
+use crate::content;
 use crate::error::{Error, Remark, quoted};
+use crate::plain_text::{Layout, PlainText};
 use crate::table::lines::{Line, Lines, counted, duplicate, expected_number, number};
 
 const CHANNEL_WORDS: &str = "Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation";
 
 pub(super) fn read(bytes: &[u8]) -> Result<(Bvh, Vec<Remark>), Error> {
+    let text = PlainText::of(bytes).with_tabs(layout);
+    read_text(&text.bytes, text.remarks).map_err(|error| error.or_other_content(bytes, content::BVH))
+}
+
+/// Numbers begin behind `MOTION`; only their decimal mark can differ.
+fn layout(lines: &[&str]) -> Option<Layout> {
+    let is_motion = |line: &&str| line.trim().eq_ignore_ascii_case("MOTION");
+    let last_header_line = lines.iter().position(is_motion)?;
+    let has_tabs = lines[last_header_line..].iter().any(|line| line.trim().contains('\t'));
+    Some(Layout { separator: if has_tabs { '\t' } else { ' ' }, last_header_line })
+}
+
+fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Bvh, Vec<Remark>), Error> {
     let mut words = Words { lines: Lines::new(bytes, "a BVH file, which begins with `HIERARCHY`")?, line: None, at: 0 };
     words.keyword("HIERARCHY", "`HIERARCHY`, as a BVH file begins")?;
     let joints = read_hierarchy(&mut words)?;
-    let mut remarks = Vec::new();
     if let Some(twice) = duplicate(joints.iter().map(|joint| joint.name.as_str())) {
         let message = format!("two or more joints have the same name (first: {})", quoted(twice));
         remarks.push(Remark { line: None, message });
@@ -306,8 +320,8 @@ fn read_frame(line: &Line<'_>, width: usize, values: &mut Vec<f64>) -> Result<us
     }
     let mut missing = 0;
     for word in line.text.split_whitespace() {
-        let value = number(word).filter(|value| !value.is_infinite());
-        let value = value.ok_or_else(|| line.error(quoted(word), expected_number(word)))?;
+        let value = number(word).ok_or_else(|| line.error(quoted(word), expected_number(word)))?;
+        let value = if value.is_infinite() { f64::NAN } else { value };
         missing += usize::from(value.is_nan());
         values.push(value);
     }

@@ -213,6 +213,11 @@ impl C3d {
 
     /// The force platforms, with positions and calibrations.
     pub fn platforms(&self) -> Result<Vec<Platform>, Error> {
+        self.each_platform().into_iter().collect()
+    }
+
+    /// Each force platform, or why its description cannot be used: one incomplete description does not cost the others.
+    pub fn each_platform(&self) -> Vec<Result<Platform, Error>> {
         platform::platforms(&self.parameters, self.channels.len())
     }
 

@@ -44,10 +44,12 @@ pub struct Platform {
 }
 
 const GROUP: &str = "FORCE_PLATFORM";
+/// No laboratory has more; a larger number is damage.
+const MOST_PLATFORMS: usize = 256;
 
-/// All platforms. `channels` is the number of analog channels.
-pub(super) fn platforms(parameters: &Parameters, channels: usize) -> Result<Vec<Platform>, Error> {
-    let used = parameters.count(GROUP, "USED").unwrap_or(0);
+/// Every platform that the file states, or what its description lacks. `channels` is the number of analog channels.
+pub(super) fn platforms(parameters: &Parameters, channels: usize) -> Vec<Result<Platform, Error>> {
+    let used = parameters.count(GROUP, "USED").unwrap_or(0).min(MOST_PLATFORMS);
     let zero_frames = zero_frames(parameters);
     (0..used).map(|index| platform(parameters, index, channels, zero_frames)).collect()
 }

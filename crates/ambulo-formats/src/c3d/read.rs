@@ -6,10 +6,22 @@ use super::parameters::Parameters;
 use super::points::Choice;
 use super::words::Words;
 use super::{C3d, Encoding, analog, events, points, rotations, section};
+use crate::content;
 use crate::error::{Error, Remark};
 
 /// `choice`: all points if it is `None`.
 pub(super) fn read(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {
+    match read_bytes(bytes, choice) {
+        Ok((c3d, _)) if c3d.frames() == 0 && content::was_changed_as_text(bytes).is_some() => {
+            let expected = "a recorded trial".to_owned();
+            Err(Error::CutOff { offset: bytes.len(), expected }.or_changed_as_text(bytes))
+        }
+        Err(error) => Err(error.or_changed_as_text(bytes).or_other_content(bytes, content::C3D)),
+        read => read,
+    }
+}
+
+fn read_bytes(bytes: &[u8], choice: Option<Choice<'_>>) -> Result<(C3d, Vec<Remark>), Error> {
     let mut remarks = Vec::new();
     let start = parameter_offset(bytes)?;
     let processor = section::processor(bytes, start, &mut remarks)?;

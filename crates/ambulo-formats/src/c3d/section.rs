@@ -97,11 +97,20 @@ impl Reader<'_> {
         }
         let number = self.byte("the number of a group")?.cast_signed();
         let name = self.name(offset, usize::from(length.unsigned_abs()))?;
-        let link_at = self.at;
-        let link = usize::from(self.word(&name)?);
+        let (link_at, stated) = (self.at, self.word(&name)?);
+        let link = usize::from(self.link(stated, number < 0));
         let next = if link == 0 { self.end } else { link_at + link };
         if next > self.end {
             return Err(self.beyond(offset, &name, next));
+        }
+        let order = self.words.processor;
+        if link != usize::from(stated) {
+            self.words.processor = self.order_of_numbers(order);
+            let message = format!(
+                "byte {link_at}: the record of `{name}` states {stated} bytes and has {link}; its length was read in \
+                 the other byte order"
+            );
+            remarks.push(Remark::of_file(message));
         }
         if number == 0 {
             return Err(Error::Byte {
@@ -117,9 +126,58 @@ impl Reader<'_> {
         } else {
             Content::Parameter(self.parameter(name, locked, next)?)
         };
+        self.words.processor = order;
         self.at = next;
         self.closed = link == 0;
         Ok(Some(Record { offset, group: number.unsigned_abs(), content }))
+    }
+
+    /// The length of a record. Programs of another processor write it in their own byte order when they change a
+    /// record: then the stated length is not that of the content, and its bytes exchanged are.
+    fn link(&self, stated: u16, is_group: bool) -> u16 {
+        let swapped = stated.swap_bytes();
+        let is_content = |link: u16| self.content_bytes(is_group).is_some_and(|bytes| bytes == usize::from(link));
+        if stated != 0 && !is_content(stated) && is_content(swapped) { swapped } else { stated }
+    }
+
+    /// Bytes of a record from its length to the end of its description, by its own content; `None` if it has none.
+    fn content_bytes(&self, is_group: bool) -> Option<usize> {
+        const LINK: usize = 2;
+        let mut at = self.at;
+        if !is_group {
+            at += self.values()?.1;
+        }
+        Some(at + 1 + usize::from(self.words.u8(at)?) + LINK - self.at)
+    }
+
+    /// The type of the values of a parameter that begins here, and the bytes to their end.
+    fn values(&self) -> Option<(i8, usize)> {
+        let kind = self.words.u8(self.at)?.cast_signed();
+        let rank = usize::from(self.words.u8(self.at + 1)?);
+        let lengths = self.words.bytes.get(self.at + 2..self.at + 2 + rank)?;
+        let dimensions: Vec<usize> = lengths.iter().copied().map(usize::from).collect();
+        Some((kind, 2 + rank + size(kind, width(kind)?, &dimensions)?))
+    }
+
+    /// The byte order of the values of a record whose length is in the other order than `order`: the one in which they
+    /// are usual numbers, or else that of the length.
+    fn order_of_numbers(&self, order: Processor) -> Processor {
+        let other = if order == Processor::Sgi { Processor::Intel } else { Processor::Sgi };
+        let Some((kind, end)) = self.values() else { return order };
+        let rank = usize::from(self.words.u8(self.at + 1).unwrap_or(0));
+        let bytes = self.words.bytes.get(self.at + 2 + rank..self.at + end).unwrap_or_default();
+        // Counts and numbers of channels are small. Reals of the wrong order have any exponent.
+        let is_usual = |processor: Processor| match kind {
+            2 => bytes.as_chunks().0.iter().all(|word| processor.i16(*word).unsigned_abs() < 256),
+            4 => bytes
+                .as_chunks()
+                .0
+                .iter()
+                .map(|word| processor.f32(*word).abs())
+                .all(|x| x == 0.0 || (1e-9..1e9).contains(&x)),
+            _ => true,
+        };
+        if !is_usual(other) && is_usual(order) { order } else { other }
     }
 
     fn parameter(&mut self, name: String, locked: bool, next: usize) -> Result<Parameter, Error> {
@@ -129,18 +187,13 @@ impl Reader<'_> {
         for _ in 0..rank {
             dimensions.push(usize::from(self.byte(&name)?));
         }
-        let width = match kind {
-            -1 | 1 => 1,
-            2 => 2,
-            4 => 4,
-            _ => return Err(self.wrong_type(&name, kind)),
-        };
+        let Some(width) = width(kind) else { return Err(self.wrong_type(&name, kind)) };
         let room = next.saturating_sub(self.at);
         let size = size(kind, width, &dimensions).filter(|&size| size <= room);
         let Some(size) = size else {
             return Err(Error::Byte {
                 offset: self.at,
-                found: format!("`{name}` of shape {dimensions:?} in a record with {room} bytes left"),
+                found: format!("`{name}` of shape {} in a record with {room} bytes left", shape_text(&dimensions)),
                 expected: "as many values as the record has room for".into(),
             });
         };
@@ -214,6 +267,25 @@ impl Reader<'_> {
             found: format!("`{name}`, whose record extends to byte {next}"),
             expected: format!("records within the parameter section, which ends at byte {}; it is damaged", self.end),
         }
+    }
+}
+
+/// A shape for a message: at most eight lengths.
+fn shape_text(dimensions: &[usize]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = dimensions.iter().take(SHOWN).map(usize::to_string).collect();
+    let more =
+        if dimensions.len() > SHOWN { format!(", ... ({} dimensions)", dimensions.len()) } else { String::new() };
+    format!("[{}{more}]", shown.join(", "))
+}
+
+/// Bytes of a value of this type.
+fn width(kind: i8) -> Option<usize> {
+    match kind {
+        -1 | 1 => Some(1),
+        2 => Some(2),
+        4 => Some(4),
+        _ => None,
     }
 }
 

@@ -10,10 +10,14 @@
 mod npy;
 mod zip;
 
+use crate::content;
 use crate::error::Error;
 
 /// Largest size of all arrays together once they are unpacked [bytes].
 pub const MAX_UNPACKED: usize = 1 << 30;
+/// Largest number of numbers in all arrays that are read together; each takes 8 bytes. A quarter of an hour of motion
+/// of the SMPL family at 120 Hz has 18 million, the largest of its models 13 million.
+pub const MAX_NUMBERS: usize = 1 << 25;
 /// Largest number of entries.
 pub const MAX_ENTRIES: usize = 4096;
 /// Largest number of texts of an array; one with more is [`Data::Other`].
@@ -79,14 +83,41 @@ impl Npz {
     /// # Errors
     /// Bytes that are no archive, entries that are damaged or too large, arrays that are not as long as their shape.
     pub fn read(bytes: &[u8]) -> Result<Npz, Error> {
-        let mut npz = Npz::default();
-        for entry in zip::entries(bytes)? {
-            if let Some(name) = entry.name.strip_suffix(".npy") {
-                let array = npy::read(&zip::content(bytes, &entry)?, &entry)?;
-                npz.arrays.push((name.to_owned(), array));
-            }
+        Npz::read_named(bytes, |_| true)
+    }
+
+    /// Reads some arrays of an archive, and of the others type and shape alone: they have no elements, as if they had
+    /// been read by [`Npz::shapes`]. Before anything is unpacked, the size of each array is compared with its shape,
+    /// and that of all wanted ones with [`MAX_NUMBERS`].
+    ///
+    /// # Errors
+    /// As [`Npz::read`].
+    pub fn read_named(bytes: &[u8], is_wanted: impl Fn(&str) -> bool) -> Result<Npz, Error> {
+        let entries = arrays(bytes)?;
+        let wanted = entries.iter().filter(|(name, ..)| is_wanted(name));
+        let count = wanted.fold(0_usize, |count, (.., header)| count.saturating_add(header.elements()));
+        if count > MAX_NUMBERS {
+            let found = format!("{count} numbers in the arrays that are read");
+            return Err(Error::Byte { offset: 0, found, expected: format!("at most {MAX_NUMBERS}") });
         }
-        Ok(npz)
+        let read = |(name, entry, header): (String, zip::Entry, npy::Header)| {
+            let is_read = is_wanted(&name) && header.elements() > 0;
+            let content = is_read.then(|| zip::content(bytes, &entry)).transpose()?;
+            let array = match content {
+                Some(content) => header.read_elements(&content),
+                None => header.without_elements(),
+            };
+            Ok((name, array))
+        };
+        Ok(Npz { arrays: entries.into_iter().map(read).collect::<Result<_, Error>>()? })
+    }
+
+    /// The arrays of an archive with type and shape, without their elements.
+    ///
+    /// # Errors
+    /// As [`Npz::read`].
+    pub fn shapes(bytes: &[u8]) -> Result<Npz, Error> {
+        Npz::read_named(bytes, |_| false)
     }
 
     /// The names of the arrays of an archive, without reading them.
@@ -112,4 +143,16 @@ impl Npz {
         let files = self.arrays.iter().map(|(name, array)| Ok((format!("{name}.npy"), npy::write(name, array)?)));
         zip::write(&files.collect::<Result<Vec<_>, Error>>()?)
     }
+}
+
+/// The arrays of an archive, each with its place and its header.
+fn arrays(bytes: &[u8]) -> Result<Vec<(String, zip::Entry, npy::Header)>, Error> {
+    let entries = zip::entries(bytes).map_err(|error| error.or_other_content(bytes, content::NPZ))?;
+    let named = entries.into_iter().filter_map(|entry| Some((entry.name.strip_suffix(".npy")?.to_owned(), entry)));
+    let with_header = |(name, entry): (String, zip::Entry)| {
+        let start = zip::beginning(bytes, &entry, npy::MAX_HEADER)?;
+        let header = npy::Header::read(&start, &entry)?;
+        Ok((name, entry, header))
+    };
+    named.map(with_header).collect()
 }

@@ -16,49 +16,91 @@ struct Kind {
     is_big: bool,
 }
 
-pub(super) fn read(bytes: &[u8], entry: &Entry) -> Result<Array, Error> {
-    let wrong = |found: String, expected: &str| Error::Byte {
-        offset: entry.offset,
-        found: format!("{found} in {}", quoted(&entry.name)),
-        expected: expected.to_owned(),
-    };
-    let no_array = || wrong("no header of an array".to_owned(), "a NumPy array of version 1, 2 or 3");
-    let version = *bytes.strip_prefix(MAGIC).and_then(|rest| rest.first()).ok_or_else(no_array)?;
-    let (start, length): (usize, usize) = match (version, bytes.get(8..12)) {
-        (1, Some([a, b, ..])) => (10, usize::from(u16::from_le_bytes([*a, *b]))),
-        (2 | 3, Some([a, b, c, d])) => {
-            (12, usize::try_from(u32::from_le_bytes([*a, *b, *c, *d])).unwrap_or(usize::MAX))
+/// Longest header that is read; NumPy pads the usual one to 128 bytes.
+pub(super) const MAX_HEADER: usize = 1 << 16;
+
+/// The header of an array: all but its elements.
+pub(super) struct Header {
+    shape: Vec<usize>,
+    /// The type as the file describes it.
+    description: String,
+    /// `None` for objects, structures and others.
+    kind: Option<Kind>,
+    is_columns: bool,
+    /// Number of elements; the shape of an array without a known kind may have any.
+    count: usize,
+    /// Bytes of the header.
+    end: usize,
+}
+
+fn wrong(entry: &Entry, found: &str, expected: &str) -> Error {
+    let found = format!("{found} in {}", quoted(&entry.name));
+    Error::Byte { offset: entry.offset, found, expected: expected.to_owned() }
+}
+
+impl Header {
+    /// Reads the header from the first bytes of an entry, and compares the size of the entry with its shape.
+    pub(super) fn read(bytes: &[u8], entry: &Entry) -> Result<Header, Error> {
+        let no_array = || wrong(entry, "no header of an array", "a NumPy array of version 1, 2 or 3");
+        let version = *bytes.strip_prefix(MAGIC).and_then(|rest| rest.first()).ok_or_else(no_array)?;
+        let (start, length): (usize, usize) = match (version, bytes.get(8..12)) {
+            (1, Some([a, b, ..])) => (10, usize::from(u16::from_le_bytes([*a, *b]))),
+            (2 | 3, Some([a, b, c, d])) => {
+                (12, usize::try_from(u32::from_le_bytes([*a, *b, *c, *d])).unwrap_or(usize::MAX))
+            }
+            _ => return Err(no_array()),
+        };
+        let end = start.checked_add(length).filter(|end| *end <= bytes.len()).ok_or_else(no_array)?;
+        let header = String::from_utf8_lossy(&bytes[start..end]);
+        let description = value(&header, "descr").unwrap_or_default();
+        let expected = "descr, fortran_order and shape";
+        let unreadable = || wrong(entry, &format!("the header {}", quoted(&header)), expected);
+        let shape = shape(value(&header, "shape").ok_or_else(unreadable)?).ok_or_else(unreadable)?;
+        let is_columns = value(&header, "fortran_order").ok_or_else(unreadable)?.starts_with("True");
+        let count = shape.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
+        let kind = kind(description);
+        if let Some(kind) = kind {
+            let bytes = entry.unpacked.saturating_sub(end);
+            if count.and_then(|count| count.checked_mul(kind.bytes)) != Some(bytes) {
+                let found = format!("{bytes} bytes of elements of the shape {shape:?}");
+                return Err(wrong(entry, &found, "as many as the shape"));
+            }
         }
-        _ => return Err(no_array()),
-    };
-    let end = start.checked_add(length).filter(|end| *end <= bytes.len()).ok_or_else(no_array)?;
-    let header = String::from_utf8_lossy(&bytes[start..end]);
-    let description = value(&header, "descr").unwrap_or_default();
-    let unreadable = || wrong(format!("the header {}", quoted(&header)), "descr, fortran_order and shape");
-    let shape = shape(value(&header, "shape").ok_or_else(unreadable)?).ok_or_else(unreadable)?;
-    let is_columns = value(&header, "fortran_order").ok_or_else(unreadable)?.starts_with("True");
-    let count = shape.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
-    let Some(kind) = kind(description) else {
-        return Ok(Array { shape, data: Data::Other(description.trim_matches(['\'', '"']).to_owned()) });
-    };
-    let elements = &bytes[end..];
-    if count.and_then(|count| count.checked_mul(kind.bytes)) != Some(elements.len()) {
-        return Err(wrong(
-            format!("{} bytes of elements of the shape {shape:?}", elements.len()),
-            "as many as the shape",
-        ));
+        let description = description.trim_matches(['\'', '"']).to_owned();
+        Ok(Header { shape, description, kind, is_columns, count: count.unwrap_or(0), end })
     }
-    let elements = elements.chunks_exact(kind.bytes);
-    let plain = || description.trim_matches(['\'', '"']).to_owned();
-    let data = match kind.letter {
-        'S' | 'U' if elements.len() > MAX_TEXTS => Data::Other(plain()),
-        'S' | 'U' => match (elements.map(|element| text(kind, element)).collect::<Vec<_>>(), count) {
-            (mut one, Some(1)) => Data::Text(one.pop().unwrap_or_default()),
-            (texts, _) => Data::Texts { kind: plain(), texts: ordered(texts, &shape, is_columns) },
-        },
-        _ => Data::Numbers(ordered(elements.map(|element| number(kind, element)).collect(), &shape, is_columns)),
-    };
-    Ok(Array { shape, data })
+
+    /// Number of elements that are read.
+    pub(super) fn elements(&self) -> usize {
+        if self.kind.is_some() { self.count } else { 0 }
+    }
+
+    /// The array without its elements.
+    pub(super) fn without_elements(self) -> Array {
+        let Header { shape, description, kind, .. } = self;
+        let is_text = |kind: &Kind| matches!(kind.letter, 'S' | 'U');
+        let data = match kind {
+            Some(kind) if !is_text(&kind) => Data::Numbers(Vec::new()),
+            Some(_) | None => Data::Other(description),
+        };
+        Array { shape, data }
+    }
+
+    /// The array with its elements, from all bytes of the entry.
+    pub(super) fn read_elements(self, bytes: &[u8]) -> Array {
+        let Header { shape, description, kind, is_columns, count, end } = self;
+        let Some(kind) = kind else { return Array { shape, data: Data::Other(description) } };
+        let elements = bytes.get(end..).unwrap_or_default().chunks_exact(kind.bytes);
+        let data = match kind.letter {
+            'S' | 'U' if elements.len() > MAX_TEXTS => Data::Other(description),
+            'S' | 'U' => match (elements.map(|element| text(kind, element)).collect::<Vec<_>>(), count) {
+                (mut one, 1) => Data::Text(one.pop().unwrap_or_default()),
+                (texts, _) => Data::Texts { kind: description, texts: ordered(texts, &shape, is_columns) },
+            },
+            _ => Data::Numbers(ordered(elements.map(|element| number(kind, element)).collect(), &shape, is_columns)),
+        };
+        Array { shape, data }
+    }
 }
 
 /// The text after `'key':` up to the comma that ends it.

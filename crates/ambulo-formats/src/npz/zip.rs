@@ -23,7 +23,7 @@ pub(super) struct Entry {
     method: u16,
     crc: u32,
     packed: usize,
-    unpacked: usize,
+    pub(super) unpacked: usize,
     /// Place of its local record.
     pub(super) offset: usize,
 }
@@ -96,35 +96,51 @@ pub(super) fn entries(bytes: &[u8]) -> Result<Vec<Entry>, Error> {
     Ok(found)
 }
 
+/// The first unpacked bytes of an entry: at most `count`.
+pub(super) fn beginning(bytes: &[u8], entry: &Entry, count: usize) -> Result<Vec<u8>, Error> {
+    let packed = packed(bytes, entry)?;
+    match entry.method {
+        DEFLATED => {
+            Ok(decompress_to_vec_with_limit(packed, count.min(entry.unpacked)).unwrap_or_else(|cut| cut.output))
+        }
+        _ => Ok(packed[..packed.len().min(count)].to_vec()),
+    }
+}
+
 /// The unpacked bytes of an entry.
 pub(super) fn content(bytes: &[u8], entry: &Entry) -> Result<Vec<u8>, Error> {
-    let wrong = |found: String, expected: &str| Error::Byte {
-        offset: entry.offset,
-        found: format!("{found} in {}", quoted(&entry.name)),
-        expected: expected.to_owned(),
-    };
-    let record = part(bytes, entry.offset, LOCAL_BYTES)?;
-    if record[..4] != LOCAL {
-        return Err(wrong("no record of an entry".to_owned(), "the entry of the list. Is the file damaged?"));
-    }
-    if u16_at(record, 6) & 1 == 1 {
-        return Err(wrong("encrypted bytes".to_owned(), "an archive without a password"));
-    }
-    let start = entry.offset + LOCAL_BYTES + usize::from(u16_at(record, 26)) + usize::from(u16_at(record, 28));
-    let packed = part(bytes, start, entry.packed)?;
+    let packed = packed(bytes, entry)?;
     let unpacked = match entry.method {
-        STORED => packed.to_vec(),
         DEFLATED => decompress_to_vec_with_limit(packed, entry.unpacked)
-            .map_err(|e| wrong(format!("{e}"), "deflated bytes. Is the file damaged?"))?,
-        other => return Err(wrong(format!("compression by method {other}"), "stored or deflated bytes")),
+            .map_err(|e| wrong(entry, format!("{e}"), "deflated bytes. Is the file damaged?"))?,
+        _ => packed.to_vec(),
     };
     if unpacked.len() != entry.unpacked || crc32(&unpacked) != entry.crc {
-        return Err(wrong(
-            "bytes with another length or checksum".to_owned(),
-            "those of the list. Is the file damaged?",
-        ));
+        let found = "bytes with another length or checksum".to_owned();
+        return Err(wrong(entry, found, "those of the list. Is the file damaged?"));
     }
     Ok(unpacked)
+}
+
+fn wrong(entry: &Entry, found: String, expected: &str) -> Error {
+    let found = format!("{found} in {}", quoted(&entry.name));
+    Error::Byte { offset: entry.offset, found, expected: expected.to_owned() }
+}
+
+/// The packed bytes of an entry.
+fn packed<'b>(bytes: &'b [u8], entry: &Entry) -> Result<&'b [u8], Error> {
+    let record = part(bytes, entry.offset, LOCAL_BYTES)?;
+    if record[..4] != LOCAL {
+        return Err(wrong(entry, "no record of an entry".to_owned(), "the entry of the list. Is the file damaged?"));
+    }
+    if u16_at(record, 6) & 1 == 1 {
+        return Err(wrong(entry, "encrypted bytes".to_owned(), "an archive without a password"));
+    }
+    let start = entry.offset + LOCAL_BYTES + usize::from(u16_at(record, 26)) + usize::from(u16_at(record, 28));
+    match entry.method {
+        STORED | DEFLATED => part(bytes, start, entry.packed),
+        other => Err(wrong(entry, format!("compression by method {other}"), "stored or deflated bytes")),
+    }
 }
 
 /// An archive of stored files.

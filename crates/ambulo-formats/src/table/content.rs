@@ -9,6 +9,8 @@ pub(super) struct Content<'a> {
     pub(super) in_degrees: Option<bool>,
     pub(super) names: Vec<&'a str>,
     pub(super) rows: usize,
+    /// Whether cells that are not a number are empty.
+    pub(super) has_gaps: bool,
     /// The number in a row and column.
     pub(super) cell: Box<dyn Fn(usize, usize) -> f64 + 'a>,
 }
@@ -23,7 +25,10 @@ impl Content<'_> {
                 if column > 0 {
                     line.push(between);
                 }
-                line.push_str(text.of((self.cell)(row, column)));
+                let number = (self.cell)(row, column);
+                if !(self.has_gaps && number.is_nan()) {
+                    line.push_str(text.of(number));
+                }
             }
             line.push('\n');
             out.write_all(line.as_bytes())?;

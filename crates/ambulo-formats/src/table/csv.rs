@@ -2,39 +2,115 @@
 
 use super::Table;
 use super::content::Content;
-use super::lines::{Lines, counted, duplicate, expected_number, number};
+use super::lines::{Line, Lines, counted, duplicate, expected_number, is_time, number};
+use super::units::Units;
+use crate::content;
 use crate::error::{Error, Remark, quoted};
+use crate::plain_text::decode;
+use crate::plain_text::{PlainText, has_decimal_commas};
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// Reads a CSV file whose cells are separated by commas, semicolons or tabs, whichever the header row has most of.
 pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
+    let text = PlainText::of(bytes);
+    read_text(&text.bytes, text.remarks).map_err(|error| error.or_other_content(bytes, content::CSV))
+}
+
+fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remark>), Error> {
     let mut lines = Lines::new(bytes, "a header row of column names, then rows of numbers")?;
-    let header = lines.next_filled()?.map(|line| line.text.into_owned()).unwrap_or_default();
     let bytes = with_line_feeds(bytes);
+    let (header, above) = header_row(&mut lines)?;
+    let separator = delimiter(&header)?;
+    let body = decode(&bytes[..bytes.len().min(HEAD_BYTES)]);
+    let has_commas = separator != b',' && has_decimal_commas(body.lines().skip(above + 1), char::from(separator));
+    if has_commas {
+        remarks.push(Remark::of_file("numbers have a decimal comma; they were read with it"));
+    }
     let mut reader = ReaderBuilder::new()
-        .delimiter(delimiter(&header)?)
+        .delimiter(separator)
         .has_headers(false)
         .flexible(true)
         .trim(Trim::All)
         .from_reader(&*bytes);
     let mut record = ByteRecord::new();
-    next_record(&mut reader, &mut record)?;
-    let names = read_names(&record, line_of(&record, &bytes))?;
+    while next_record(&mut reader, &mut record)? && line_of(&record, &bytes) <= above {}
+    let named = line_of(&record, &bytes);
+    let names = read_names(&record, named)?;
     let data = vec![vec![]; names.len()];
     let mut table = Table { name: String::new(), in_degrees: None, names, data, lines: vec![] };
-    let mut gaps = 0;
+    let (mut gaps, mut units) = (0, None);
     while next_record(&mut reader, &mut record)? {
-        gaps += read_row(&record, line_of(&record, &bytes), &mut table)?;
+        let line = line_of(&record, &bytes);
+        if table.rows() == 0 && units.is_none() && record.len() == table.names.len() {
+            units = Units::of_row(record.iter().map(|cell| std::str::from_utf8(cell).unwrap_or("\u{fffd}")));
+            if units.is_some() {
+                let message = "the row below the names has units; the numbers are in these units".into();
+                remarks.push(Remark { line: Some(line), message });
+                continue;
+            }
+        }
+        gaps += read_row(&record, line, has_commas, &mut table)?;
     }
     if table.rows() == 0 {
         return Err(lines.truncated("rows of numbers below the column names"));
     }
-    Ok((table, gap_remark(gaps).into_iter().collect()))
+    if let Some(units) = units {
+        units.apply(&mut table);
+    }
+    gaps -= without_unnamed(&mut table, named)?;
+    remarks.extend(empty_cells(gaps));
+    Ok((table, remarks))
 }
 
-fn gap_remark(gaps: usize) -> Option<Remark> {
+/// Bytes of a file in which its decimal mark is looked for.
+const HEAD_BYTES: usize = 1 << 18;
+
+/// The row of column names, and the number of lines above it: comments, and the line `sep=;` of Excel.
+fn header_row(lines: &mut Lines<'_>) -> Result<(String, usize), Error> {
+    let mut above = 0;
+    while let Some(line) = lines.next_filled()? {
+        let text = line.text.trim_matches(['"', ' ']);
+        let is_of_excel = text.len() == "sep=;".len() && text.to_ascii_lowercase().starts_with("sep=");
+        if !(is_of_excel || text.starts_with('#')) || starts_with_numbers(lines)? {
+            return Ok((line.text.into_owned(), above));
+        }
+        above = line.number;
+    }
+    Ok((String::new(), above))
+}
+
+/// Whether the next line begins with a number: the line above it then has the names, also behind a `#`.
+fn starts_with_numbers(lines: &Lines<'_>) -> Result<bool, Error> {
+    let next = lines.clone().next_filled()?;
+    let is_number =
+        |line: &Line<'_>| line.text.split([',', ';', '\t']).next().is_some_and(|cell| number(cell.trim()).is_some());
+    Ok(next.as_ref().is_some_and(is_number))
+}
+
+/// Removes columns without a name: of cells that are empty, because rows end with a separator, and a first one that
+/// counts the rows, as pandas writes it. Returns the number of these empty cells.
+fn without_unnamed(table: &mut Table, line: usize) -> Result<usize, Error> {
+    let counts =
+        |values: &[f64]| values.iter().enumerate().all(|(row, value)| (value - values[0] - row as f64).abs() < 1e-9);
+    let mut empty = 0;
+    for k in (0..table.names.len()).rev().filter(|k| table.names[*k].is_empty()).collect::<Vec<_>>() {
+        let values = &table.data[k];
+        let is_empty = values.iter().all(|value| value.is_nan());
+        if !(is_empty || (k == 0 && counts(values))) {
+            let found = format!("no name for column {}", k + 1);
+            return Err(Error::Line { line, found, expected: "a name for every column".into() });
+        }
+        empty += if is_empty { values.len() } else { 0 };
+        table.names.remove(k);
+        table.data.remove(k);
+    }
+    Ok(empty)
+}
+
+/// The remark on empty cells.
+pub(super) fn empty_cells(gaps: usize) -> Option<Remark> {
     let message = match gaps {
         0 => return None,
         1 => "1 cell is empty; it was read as not-a-number".into(),
@@ -94,17 +170,19 @@ fn line_of(record: &ByteRecord, bytes: &[u8]) -> usize {
     whole(start.line()) + ends.filter(|&&byte| byte == b'\n').count()
 }
 
+/// The names; some may be empty.
 fn read_names(record: &ByteRecord, line: usize) -> Result<Vec<String>, Error> {
-    let names: Vec<String> =
-        record.iter().map(|cell| unguarded(&one_line(&crate::xml::decode(cell))).to_owned()).collect();
-    let fail = |found, expected: &str| Err(Error::Line { line, found, expected: expected.into() });
-    if let Some(empty) = names.iter().position(String::is_empty) {
-        return fail(format!("no name for column {}", empty + 1), "a name for every column");
+    let mut names: Vec<String> = record.iter().map(|cell| unguarded(&one_line(&decode(cell))).to_owned()).collect();
+    if let Some(time) =
+        names.first().and_then(|name| name.strip_prefix('#')).map(str::trim).filter(|name| is_time(name))
+    {
+        names[0] = time.to_owned();
     }
-    if names.iter().all(|name| number(name).is_some()) {
+    let fail = |found, expected: &str| Err(Error::Line { line, found, expected: expected.into() });
+    if names.iter().all(|name| name.is_empty() || number(name).is_some()) {
         return fail(quoted(&names.join(",")), "a header row of column names");
     }
-    if let Some(twice) = duplicate(names.iter().map(String::as_str)) {
+    if let Some(twice) = duplicate(names.iter().map(String::as_str).filter(|name| !name.is_empty())) {
         return fail(format!("two columns {}", quoted(twice)), "column names that differ");
     }
     Ok(names)
@@ -118,9 +196,10 @@ fn one_line(name: &str) -> String {
 }
 
 /// Appends a row; returns the number of its empty cells.
-fn read_row(record: &ByteRecord, line: usize, table: &mut Table) -> Result<usize, Error> {
+fn read_row(record: &ByteRecord, line: usize, has_commas: bool, table: &mut Table) -> Result<usize, Error> {
     if record.len() != table.data.len() {
-        let hint = if record.len() > table.data.len() { " (a decimal comma splits a number in two)" } else { "" };
+        let is_odd = record.len() > table.data.len() && table.data.len() > 1;
+        let hint = if is_odd { " (a decimal comma splits a number in two)" } else { "" };
         let expected = format!("{}, one a column{hint}", table.data.len());
         return Err(Error::Line { line, found: counted(record.len(), "cell"), expected });
     }
@@ -128,7 +207,8 @@ fn read_row(record: &ByteRecord, line: usize, table: &mut Table) -> Result<usize
     for (column, cell) in table.data.iter_mut().zip(record) {
         let word = std::str::from_utf8(cell).unwrap_or("\u{fffd}");
         gaps += usize::from(word.is_empty());
-        let value = if word.is_empty() { Some(f64::NAN) } else { number(word) };
+        let value = if ["", "-", "."].contains(&word) { Some(f64::NAN) } else { number(word) };
+        let value = value.or_else(|| has_commas.then(|| number(&word.replacen(',', ".", 1)))?);
         column.push(value.ok_or_else(|| Error::Line { line, found: quoted(word), expected: expected_number(word) })?);
     }
     table.lines.push(line);

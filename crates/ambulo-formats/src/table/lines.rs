@@ -38,12 +38,8 @@ pub(crate) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// Refuses an empty file and UTF-16 text. `expected` states what a valid file begins with.
+    /// Refuses an empty file. `expected` states what a valid file begins with.
     pub(crate) fn new(bytes: &'a [u8], expected: &'static str) -> Result<Self, Error> {
-        if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-            let expected = "plain or UTF-8 text; save the file again as UTF-8".into();
-            return Err(Error::Line { line: 1, found: "UTF-16 text".into(), expected });
-        }
         let rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if rest.iter().all(u8::is_ascii_whitespace) {
             return Err(Error::Empty { expected });
@@ -102,7 +98,12 @@ fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// A number as C, C++, Rust or Microsoft's C write it, including not-a-number and infinity.
+/// Words for a missing value in lower case: of R, Python, Excel and databases.
+const MISSING: [&str; 15] =
+    ["na", "n/a", "n.a.", "#n/a", "#na", "null", "none", "nil", "missing", "--", "---", "*", "?", "#value!", "#div/0!"];
+
+/// A number as C, C++, Rust or Microsoft's C write it, including not-a-number and infinity; a word for a missing value
+/// is not-a-number.
 pub(crate) fn number(word: &str) -> Option<f64> {
     match word.parse::<f64>() {
         Ok(value) if value.is_nan() => Some(f64::NAN),
@@ -117,6 +118,9 @@ fn special(word: &str) -> Option<f64> {
         Some(size) => (-1.0, size),
         None => (1.0, word.strip_prefix('+').unwrap_or(word)),
     };
+    if MISSING.contains(&&*word.to_ascii_lowercase()) {
+        return Some(f64::NAN);
+    }
     let size = size.to_ascii_lowercase();
     if let Some(tail) = size.strip_prefix("1.#") {
         return match tail.trim_end_matches('0') {
@@ -137,6 +141,15 @@ pub(crate) fn expected_number(word: &str) -> String {
             .into();
     }
     "a number".into()
+}
+
+/// Words above the column of times, without regard to case.
+pub(crate) const TIME_WORDS: [&str; 10] =
+    ["time", "times", "time(s)", "time (s)", "time[s]", "time [s]", "time_s", "time (sec)", "t", "seconds"];
+
+/// Whether a name is that of the column of times.
+pub(crate) fn is_time(name: &str) -> bool {
+    TIME_WORDS.iter().any(|word| name.eq_ignore_ascii_case(word))
 }
 
 /// A count in a message: "1 row", "3 rows".

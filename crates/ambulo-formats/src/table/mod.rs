@@ -5,12 +5,14 @@
 //!
 //! | file | read | written |
 //! |---|---|---|
-//! | storage | versions 1-3 with one number per cell, and SIMM's header before them (`datacolumns`, `datarows`) | version 1 |
+//! | storage | versions 1-3 with one number per cell, and SIMM's header before them (`datacolumns`, `datarows`), whose angles are in degrees | version 1 |
 //! | storage of quaternions | [`OrientationTable`]: `DataType=Quaternion` | version 3 |
-//! | CSV | header row, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas; an apostrophe before names that a spreadsheet would take for formulas |
+//! | CSV | header row, perhaps a row of units, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas; an apostrophe before names that a spreadsheet would take for formulas |
 //!
 //! Numbers are written in the shortest form that reads back to the same bits.
-//! Not handled, and rejected: storage of vectors (`DataType=Vec3`), decimal commas, storage without a time column.
+//! Storage that a spreadsheet saved with commas, semicolons or decimal commas, and text in UTF-16, is read with a
+//! remark. Not handled, and rejected: storage of vectors (`DataType=Vec3`), storage without a time column, a comma that
+//! may be a decimal comma or divide thousands.
 //! Pinned by: tests/tables.rs, tests/malformed.rs, tests/real_files.rs
 
 mod content;
@@ -19,12 +21,17 @@ pub(crate) mod lines;
 mod orientations;
 mod rows;
 mod storage;
+mod units;
 
 pub use csv::{guarded, unguarded};
 pub use orientations::OrientationTable;
 pub use rows::TableRows;
 
 use crate::error::{Error, Remark, quoted};
+
+/// Larger numbers are no measurements: 10^15 is a distance of a tenth of a light year, or a force of 10^12 body
+/// weights.
+const LARGEST: f64 = 1e15;
 
 const IN_MEMORY: &str = "writing to memory does not fail";
 
@@ -112,11 +119,31 @@ impl Table {
         self.columns().find(|(n, _)| *n == name).map(|(_, values)| values)
     }
 
-    /// Values of the first column \[s\] if its name is `time`, in upper or lower case. Every storage file has it, a CSV
-    /// file may.
+    /// Values of the first column \[s\] if its name is `time`, `Time (s)` or another word for it. Every storage file
+    /// has it, a CSV file may.
     pub fn times(&self) -> Option<&[f64]> {
         let (name, values) = self.columns().next()?;
-        name.eq_ignore_ascii_case("time").then_some(values)
+        lines::is_time(name).then_some(values)
+    }
+
+    /// Makes numbers that nothing can measure missing values: infinite ones, and those beyond [`LARGEST`]. Returns the
+    /// remark on them.
+    pub fn without_impossible(&mut self) -> Option<Remark> {
+        let mut found: Option<(usize, String, f64)> = None;
+        let mut count = 0;
+        for (name, values) in self.names.iter().zip(&mut self.data) {
+            for (row, value) in values.iter_mut().enumerate().filter(|(_, value)| value.abs() > LARGEST) {
+                count += 1;
+                let line = self.lines.get(row).copied().unwrap_or(row + 1);
+                found.get_or_insert_with(|| (line, name.clone(), *value));
+                *value = f64::NAN;
+            }
+        }
+        let (line, name, value) = found?;
+        let what = if value.is_infinite() { "infinite".to_owned() } else { format!("{value:.0e}") };
+        let others = if count > 1 { format!(" ({count} such numbers)") } else { String::new() };
+        let message = format!("the value of {} is {what}{others}; it was read as missing", quoted(&name));
+        Some(Remark { line: Some(line), message })
     }
 
     /// Line of the file with this row, counted from 1; `None` for a table made in memory.

@@ -15,6 +15,7 @@
 use super::lines::{Line, Lines, duplicate, number};
 use super::storage::{ENDHEADER, MAX_HEADER_LINES, read_names, split_key};
 use crate::error::{Error, quoted};
+use crate::plain_text::utf8;
 use std::fmt::Write as _;
 
 /// Largest difference of the length of a quaternion from 1; files have four to seventeen digits.
@@ -38,7 +39,8 @@ impl OrientationTable {
     /// Whether a storage file states that its cells are quaternions.
     #[must_use]
     pub fn is_stated(bytes: &[u8]) -> bool {
-        let Ok(mut lines) = Lines::new(bytes, "a header") else { return false };
+        let text = utf8(bytes);
+        let Ok(mut lines) = Lines::new(&text, "a header") else { return false };
         for _ in 0..MAX_HEADER_LINES {
             let Ok(Some(line)) = lines.next_line() else { return false };
             let (key, value) = split_key(&line.text);
@@ -57,7 +59,8 @@ impl OrientationTable {
     /// # Errors
     /// A header without `DataType=Quaternion` or without an end; rows of another length; cells that are no quaternions.
     pub fn read(bytes: &[u8]) -> Result<OrientationTable, Error> {
-        let mut lines = Lines::new(bytes, "an OpenSim storage file with the header `DataType=Quaternion`")?;
+        let text = utf8(bytes);
+        let mut lines = Lines::new(&text, "an OpenSim storage file with the header `DataType=Quaternion`")?;
         let rate_hz = read_header(&mut lines)?;
         let (_, names) = read_names(&mut lines)?;
         let sensors = names.into_iter().skip(1).map(|name| (name, Vec::new()));

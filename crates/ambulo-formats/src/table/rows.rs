@@ -92,7 +92,7 @@ impl<'a> TableRows<'a> {
 
     /// Writes CSV row by row, as [`Table::write_csv`].
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        csv::write(&self.content(), out)
+        csv::write(&Content { has_gaps: true, ..self.content() }, out)
     }
 
     fn content(&self) -> Content<'_> {
@@ -101,6 +101,7 @@ impl<'a> TableRows<'a> {
             in_degrees: self.in_degrees,
             names: self.columns.iter().map(|(name, _)| name.as_str()).collect(),
             rows: self.rows,
+            has_gaps: false,
             cell: Box::new(|row, column| self.columns[column].1(row)),
         }
     }
@@ -113,6 +114,7 @@ impl Table {
             in_degrees: self.in_degrees,
             names: self.names.iter().map(String::as_str).collect(),
             rows: self.rows(),
+            has_gaps: false,
             cell: Box::new(|row, column| self.data[column][row]),
         }
     }

@@ -2,8 +2,11 @@
 
 use super::Table;
 use super::content::Content;
-use super::lines::{Line, Lines, counted, duplicate, expected_number, number};
+use super::csv::empty_cells;
+use super::lines::{Line, Lines, counted, duplicate, expected_number, is_time, number};
+use crate::content;
 use crate::error::{Error, Remark, quoted};
+use crate::plain_text::{Layout, PlainText, separator_behind};
 use std::io::{self, Write};
 
 /// A header is ten lines long; some programs add a few dozen lines of comments.
@@ -12,29 +15,31 @@ pub(super) const MAX_HEADER_LINES: usize = 4096;
 pub(super) const ENDHEADER: &str = "endheader";
 
 /// Reads a `.mot` or `.sto` file.
-/// A model, a set-up file or a marker file in place of a table is a common mistake.
-fn refuse_other_formats(bytes: &[u8]) -> Result<(), Error> {
-    let start = bytes.trim_ascii_start();
-    let found = if start.starts_with(b"<") {
-        "an XML document"
-    } else if start.starts_with(b"PathFileType") {
-        "a marker file (.trc)"
-    } else {
-        return Ok(());
-    };
-    Err(Error::Line { line: 1, found: found.into(), expected: "an OpenSim storage file (.mot or .sto)".into() })
+pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
+    let text = PlainText::of(bytes).with_tabs(layout);
+    read_text(&text.bytes, text.remarks).map_err(|error| error.or_other_content(bytes, content::STORAGE))
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<(Table, Vec<Remark>), Error> {
-    refuse_other_formats(bytes)?;
+/// The line of names is the one behind `endheader`, or without that the first one that begins with `time`.
+fn layout(lines: &[&str]) -> Option<Layout> {
+    let is_end = |line: &&str| line.trim_matches([' ', ',', ';', '\t', '"']).eq_ignore_ascii_case(ENDHEADER);
+    let end = lines.iter().position(is_end).map_or(0, |end| end + 1);
+    let of_names =
+        |(k, line): (usize, &&str)| Some(Layout { separator: separator_behind(line, is_time)?, last_header_line: k });
+    let filled = |(_, line): &(usize, &&str)| end == 0 || !line.trim().is_empty();
+    let mut candidates = lines.iter().enumerate().skip(end).filter(filled);
+    if end > 0 { candidates.next().and_then(of_names) } else { candidates.find_map(of_names) }
+}
+
+fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remark>), Error> {
     let mut lines = Lines::new(bytes, "an OpenSim storage file: a header that ends with `endheader`, names, rows")?;
-    let mut remarks = Vec::new();
     let header = read_header(&mut lines, &mut remarks)?;
     let (label_line, names) = read_names(&mut lines)?;
     let width = names.len();
     let mut table =
         Table { name: header.name, in_degrees: header.in_degrees, names, data: vec![vec![]; width], lines: vec![] };
-    read_rows(&mut lines, &mut table, header.rows)?;
+    let empty = read_rows(&mut lines, &mut table, header.rows)?;
+    remarks.extend(empty_cells(empty));
     if let Some(stated) = header.columns.filter(|&stated| stated != width) {
         let message = format!("the header states {}, the file has {width}; read {width}", counted(stated, "column"));
         remarks.push(Remark { line: Some(label_line), message });
@@ -62,17 +67,26 @@ struct Header {
     angles_in_degrees: Option<bool>,
     rows: Option<usize>,
     columns: Option<usize>,
+    /// `datacolumns` or `datarows`, which only SIMM writes. Its angles are in degrees (OpenSim reads them so).
+    is_of_simm: bool,
 }
 
 fn read_header(lines: &mut Lines<'_>, remarks: &mut Vec<Remark>) -> Result<Header, Error> {
     let mut header = Header::default();
     let mut first = true;
     for _ in 0..MAX_HEADER_LINES {
+        let before = lines.clone();
         let Some(line) = lines.next_line()? else {
             return Err(lines.truncated(format!("a line `{ENDHEADER}` that closes the header")));
         };
         let text = line.text.trim();
-        if text.eq_ignore_ascii_case(ENDHEADER) {
+        let is_end = text.eq_ignore_ascii_case(ENDHEADER);
+        if !is_end && are_names(&line, lines)? {
+            let message = format!("no line `{ENDHEADER}` above the names of the columns; they were read as such");
+            remarks.push(Remark { line: Some(line.number), message });
+            *lines = before;
+        }
+        if is_end || remarks.last().is_some_and(|remark| remark.line == Some(line.number)) {
             settle_degrees(&mut header, remarks);
             return Ok(header);
         }
@@ -89,9 +103,29 @@ fn read_header(lines: &mut Lines<'_>, remarks: &mut Vec<Remark>) -> Result<Heade
     Err(Error::Line { line: MAX_HEADER_LINES, found: "a header without end".into(), expected })
 }
 
+/// Whether a line has the names of columns: it begins with `time`, and numbers follow.
+fn are_names(line: &Line<'_>, rest: &Lines<'_>) -> Result<bool, Error> {
+    let names = cells_of(&line.text);
+    let Some(next) = rest.clone().next_filled()? else { return Ok(false) };
+    let row = cells_of(&next.text);
+    Ok(names.len() > 1
+        && is_time(names[0])
+        && row.len() == names.len()
+        && row.iter().all(|cell| number(cell).is_some()))
+}
+
+/// Cells between tabs, or words if there are no tabs.
+fn cells_of(text: &str) -> Vec<&str> {
+    let text = text.trim();
+    if text.contains('\t') { text.split('\t').map(str::trim).collect() } else { text.split_whitespace().collect() }
+}
+
 fn settle_degrees(header: &mut Header, remarks: &mut Vec<Remark>) {
     let (Some(key), Some(sentence)) = (header.in_degrees, header.angles_in_degrees) else {
         header.in_degrees = header.in_degrees.or(header.angles_in_degrees);
+        if header.is_of_simm && header.in_degrees.is_none() {
+            header.in_degrees = Some(true);
+        }
         return;
     };
     if key != sentence {
@@ -109,7 +143,9 @@ impl Header {
     /// Reads one line; returns false for a line without a known key.
     fn take(&mut self, line: &Line<'_>, remarks: &mut Vec<Remark>) -> Result<bool, Error> {
         let (key, value) = split_key(&line.text);
-        match key.to_ascii_lowercase().as_str() {
+        let key_word = key.to_ascii_lowercase();
+        self.is_of_simm |= matches!(key_word.as_str(), "datacolumns" | "datarows");
+        match key_word.as_str() {
             "name" => self.name = value.to_owned(),
             "nrows" | "nr" | "datarows" => self.rows = Some(count(line, key, value)?),
             "ncolumns" | "nc" | "datacolumns" => self.columns = Some(count(line, key, value)?),
@@ -139,7 +175,7 @@ fn count(line: &Line<'_>, key: &str, value: &str) -> Result<usize, Error> {
 }
 
 fn yes_or_no(line: &Line<'_>, value: &str) -> Result<bool, Error> {
-    match value.to_ascii_lowercase().as_str() {
+    match value.trim_matches(['"', '\'']).to_ascii_lowercase().as_str() {
         "yes" | "y" | "true" | "1" => Ok(true),
         "no" | "n" | "false" | "0" => Ok(false),
         _ => Err(line.error(format!("inDegrees {}", quoted(value)), "`inDegrees=yes` or `inDegrees=no`")),
@@ -179,9 +215,9 @@ pub(super) fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), 
     let Some(first_row) = lines.clone().next_filled()? else {
         return Err(lines.truncated("rows of numbers below the column names"));
     };
-    let names = split_names(&line.text, first_row.text.split_ascii_whitespace().count());
+    let names = split_names(&line.text, &first_row.text);
     match names.first() {
-        Some(first) if first.eq_ignore_ascii_case("time") => {}
+        Some(first) if is_time(first) => {}
         first => {
             let found = format!("the first column {}", quoted(first.map_or("", |name| name)));
             return Err(line.error(found, "a first column `time`"));
@@ -193,27 +229,59 @@ pub(super) fn read_names(lines: &mut Lines<'_>) -> Result<(usize, Vec<String>), 
     Ok((line.number, names))
 }
 
-/// Names are separated by tabs and may contain spaces, if that gives as many names as the first row has numbers;
-/// otherwise they are separated by any white space.
-fn split_names(text: &str, width: usize) -> Vec<String> {
+/// Names are separated by tabs and may contain spaces, if that gives as many names as the first row has numbers, or
+/// cells; otherwise they are separated by any white space.
+fn split_names(text: &str, first_row: &str) -> Vec<String> {
     let between_tabs: Vec<&str> = text.split('\t').map(str::trim).filter(|name| !name.is_empty()).collect();
-    if between_tabs.len() == width {
+    let words = first_row.split_ascii_whitespace().count();
+    let cells = first_row.split('\t').count();
+    if between_tabs.len() == words || (cells > words && between_tabs.len() == cells) {
         return between_tabs.into_iter().map(str::to_owned).collect();
     }
     text.split_whitespace().map(str::to_owned).collect()
 }
 
-fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) -> Result<(), Error> {
+/// Reads all rows; returns the number of empty cells.
+fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) -> Result<usize, Error> {
+    let mut empty = 0;
     while let Some(line) = lines.next_filled()? {
-        if let Err(error) = read_row(&line, &mut table.data) {
-            let may_miss = stated.is_none_or(|stated| table.lines.len() < stated);
-            let cut = may_miss && lines.is_at_end() && is_cut(&line, table.data.len(), lines.last_is_ended());
-            let expected = || format!("the rest of a row of {} numbers", table.data.len());
-            return Err(if cut { lines.truncated(expected()) } else { error });
+        let is_unended = lines.is_at_end() && !lines.last_is_ended();
+        let row = match read_row(&line, &mut table.data) {
+            Err(error) if !is_unended => read_cells(&line, table).ok_or(error),
+            read => read.map(|()| 0),
+        };
+        match row {
+            Ok(count) => empty += count,
+            Err(error) => {
+                let may_miss = stated.is_none_or(|stated| table.lines.len() < stated);
+                let cut = may_miss && lines.is_at_end() && is_cut(&line, table.data.len(), lines.last_is_ended());
+                let expected = || format!("the rest of a row of {} numbers", table.data.len());
+                return Err(if cut { lines.truncated(expected()) } else { error });
+            }
         }
         table.lines.push(line.number);
     }
-    Ok(())
+    Ok(empty)
+}
+
+/// Reads a row with empty cells between its tabs; returns their number. `None` if the cells are not those of the table.
+fn read_cells(line: &Line<'_>, table: &mut Table) -> Option<usize> {
+    let (rows, width) = (table.lines.len(), table.data.len());
+    let mut cells: Vec<&str> = line.text.split('\t').map(str::trim).collect();
+    while cells.len() > width && cells.last().is_some_and(|cell| cell.is_empty()) {
+        cells.pop();
+    }
+    let value = |cell: &&str| if cell.is_empty() { Some(f64::NAN) } else { number(cell) };
+    let values: Vec<f64> = cells.iter().map(value).collect::<Option<_>>()?;
+    let empty = cells.iter().filter(|cell| cell.is_empty()).count();
+    if values.len() != width || empty == 0 {
+        return None;
+    }
+    for (column, value) in table.data.iter_mut().zip(values) {
+        column.truncate(rows);
+        column.push(value);
+    }
+    Some(empty)
 }
 
 /// Whether the file is truncated in this row: numbers are missing, or the last one is incomplete.
@@ -259,8 +327,7 @@ fn name_line(name: &str) -> String {
     let name = name.trim().trim_start_matches(|c: char| c.is_whitespace() || c == '=');
     let (key, _) = split_key(name);
     let line = Line { number: 1, text: key.into() };
-    let is_other = refuse_other_formats(name.as_bytes()).is_err();
-    let is_key = is_other || name.contains('=') || !matches!(Header::default().take(&line, &mut Vec::new()), Ok(false));
+    let is_key = name.contains('=') || !matches!(Header::default().take(&line, &mut Vec::new()), Ok(false));
     match name {
         "" => String::new(),
         _ if is_key || name.eq_ignore_ascii_case(ENDHEADER) => format!("name={name}\n"),

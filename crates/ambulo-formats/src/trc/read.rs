@@ -1,20 +1,32 @@
 //! Reading TRC.
 
 use super::{LengthUnit, Marker, Trc};
+use crate::content;
 use crate::error::{Error, Remark, quoted};
-use crate::table::lines::{Line, Lines, counted, duplicate, expected_number, number};
+use crate::plain_text::{Layout, PlainText, separator_behind};
+use crate::table::lines::{Line, Lines, counted, duplicate, expected_number, is_time, number};
 
 const FIRST_WORD: &str = "PathFileType";
 /// Words above the column of frame numbers, without regard to case.
 const FRAME_WORDS: [&str; 5] = ["Frame#", "Frame", "Frames", "Frame #", "#"];
-/// Words above the column of times, without regard to case.
-const TIME_WORDS: [&str; 6] = ["Time", "Times", "Time(s)", "Time (s)", "Time[s]", "Time [s]"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<(Trc, Vec<Remark>), Error> {
+    let text = PlainText::of(bytes).with_tabs(layout);
+    read_text(&text.bytes, text.remarks).map_err(|error| error.or_other_content(bytes, content::TRC))
+}
+
+/// The first line shows the separator; rows of numbers begin below the fourth one.
+fn layout(lines: &[&str]) -> Option<Layout> {
+    let mut filled = lines.iter().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let is_first = |cell: &str| cell.eq_ignore_ascii_case(FIRST_WORD);
+    let separator = separator_behind(filled.next()?.1, is_first)?;
+    Some(Layout { separator, last_header_line: filled.nth(2)?.0 })
+}
+
+fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Trc, Vec<Remark>), Error> {
     let mut lines = Lines::new(bytes, "a TRC file, which begins with `PathFileType`")?;
     let name = read_path_line(&mut lines)?;
     let header = read_header(&mut lines)?;
-    let mut remarks = Vec::new();
     let (names, places) = read_names(&mut lines, header.markers, &mut remarks)?;
     let room = room(bytes, header.frames, names.len());
     let marker = |name| Marker { name, positions_m: Vec::with_capacity(room) };
@@ -78,7 +90,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<Header, Error> {
         rate_hz: number(rate).filter(|rate| rate.is_finite() && *rate > 0.0).ok_or_else(|| {
             values.error(format!("DataRate {}", quoted(rate)), "a frame rate in Hz, a finite number above zero")
         })?,
-        unit: read_unit(&values, need("Units")?)?,
+        unit: read_unit(&values, value("Units").unwrap_or_default(), &keys)?,
         orig_start_frame: value("OrigDataStartFrame")
             .map_or(Some(1), integer)
             .ok_or_else(|| values.error(quoted(&values.text), "a whole number for OrigDataStartFrame"))?,
@@ -104,8 +116,11 @@ fn pair<'l>(keys: &'l Line<'_>, values: &'l Line<'_>) -> Result<Vec<(&'l str, &'
     Ok(names.into_iter().zip(cells).filter(|(_, value)| !value.is_empty()).collect())
 }
 
-fn read_unit(line: &Line<'_>, symbol: &str) -> Result<LengthUnit, Error> {
-    let word = symbol.to_lowercase();
+fn read_unit(line: &Line<'_>, symbol: &str, keys: &Line<'_>) -> Result<LengthUnit, Error> {
+    if symbol.is_empty() && !keys.text.split_whitespace().any(|key| key.eq_ignore_ascii_case("Units")) {
+        return Err(keys.error(quoted(&keys.text), "a key `Units`"));
+    }
+    let word = symbol.trim_matches(['[', ']', '(', ')', '"', '.']).to_lowercase();
     let is_named = |unit: &LengthUnit| match unit {
         LengthUnit::Millimetre => ["millimeter", "millimeters", "millimetre", "millimetres"].contains(&word.as_str()),
         LengthUnit::Centimetre => ["centimeter", "centimeters", "centimetre", "centimetres"].contains(&word.as_str()),
@@ -139,7 +154,7 @@ fn read_names(
     let mut words = words(&line.text);
     let is = |word: Option<&&str>, wanted: &str| word.is_some_and(|w| w.eq_ignore_ascii_case(wanted));
     let is_one_of = |word: Option<&&str>, wanted: &[&str]| wanted.iter().any(|wanted| is(word, wanted));
-    if !is_one_of(words.first(), &FRAME_WORDS) || !is_one_of(words.get(1), &TIME_WORDS) {
+    if !is_one_of(words.first(), &FRAME_WORDS) || !words.get(1).is_some_and(|word| is_time(word)) {
         return Err(line.error(quoted(&line.text), "`Frame#`, `Time`, then marker names"));
     }
     let names: Vec<String> = words.drain(2..).map(str::to_owned).collect();
@@ -149,7 +164,7 @@ fn read_names(
     if let Some(twice) = duplicate(names.iter().map(String::as_str)) {
         return Err(line.error(format!("two markers {}", quoted(twice)), "marker names that differ"));
     }
-    let places = read_axes(lines, names.len())?;
+    let places = read_axes(lines, names.len(), remarks)?;
     if let Some(stated) = stated.filter(|&stated| stated != names.len()) {
         let message = format!("NumMarkers states {stated}, the file names {}; read {0}", names.len());
         remarks.push(Remark { line: Some(line.number), message });
@@ -165,9 +180,19 @@ fn words(text: &str) -> Vec<&str> {
     text.split_whitespace().collect()
 }
 
-/// Checks the line X1 Y1 Z1; returns the places of its cells, if it is separated by tabs.
-fn read_axes(lines: &mut Lines<'_>, markers: usize) -> Result<Vec<usize>, Error> {
+/// Checks the line X1 Y1 Z1, which some programs omit; returns the places of its cells, if it is separated by tabs.
+fn read_axes(lines: &mut Lines<'_>, markers: usize, remarks: &mut Vec<Remark>) -> Result<Vec<usize>, Error> {
+    let before = lines.clone();
     let line = lines.next_filled()?.ok_or_else(|| lines.truncated("a line X1 Y1 Z1 X2 ..."))?;
+    let mut start = line.text.split_whitespace().take(2);
+    if start.next().is_some_and(|word| integer(word).is_some())
+        && start.next().is_some_and(|word| number(word).is_some())
+    {
+        let message = "no line X1 Y1 Z1 below the names of the markers; three columns were read for each".into();
+        remarks.push(Remark { line: Some(line.number), message });
+        *lines = before;
+        return Ok(Vec::new());
+    }
     let axes: Vec<&str> = line.text.split_whitespace().collect();
     let expected = || format!("X, Y, Z for each of {}", counted(markers, "named marker"));
     if axes.len() != 3 * markers {
@@ -190,6 +215,7 @@ fn read_axes(lines: &mut Lines<'_>, markers: usize) -> Result<Vec<usize>, Error>
 struct Oddities {
     partial: Count,
     zero: Count,
+    impossible: Count,
 }
 
 #[derive(Default)]
@@ -216,7 +242,8 @@ impl Oddities {
     fn remarks(&self) -> impl Iterator<Item = Remark> {
         let partial = self.partial.remark("with one or two empty cells; read as a gap");
         let zero = self.zero.remark("exactly 0 0 0, which some programs write for a gap");
-        partial.into_iter().chain(zero)
+        let impossible = self.impossible.remark("with an infinite number; read as a gap");
+        partial.into_iter().chain(zero).chain(impossible)
     }
 }
 
@@ -283,7 +310,11 @@ fn read_frame(line: &Line<'_>, cells: &[&str], trc: &mut Trc, oddities: &mut Odd
     let value = number(time).filter(|time| time.is_finite());
     let value = value.ok_or_else(|| line.error(format!("time {}", quoted(time)), expected_number(time)))?;
     for (marker, triple) in trc.markers.iter_mut().zip(positions.chunks(3)) {
-        let position = read_position(line, triple)?;
+        let mut position = read_position(line, triple)?;
+        if position.iter().any(|value| value.is_infinite()) {
+            oddities.impossible.add(line.number, &marker.name);
+            position = [f64::NAN; 3];
+        }
         let empty = triple.iter().filter(|cell| cell.is_empty()).count();
         if empty == 1 || empty == 2 {
             oddities.partial.add(line.number, &marker.name);
@@ -302,8 +333,7 @@ fn read_frame(line: &Line<'_>, cells: &[&str], trc: &mut Trc, oddities: &mut Odd
 fn read_position(line: &Line<'_>, cells: &[&str]) -> Result<[f64; 3], Error> {
     let mut position = [f64::NAN; 3];
     for (value, cell) in position.iter_mut().zip(cells).filter(|(_, cell)| !cell.is_empty()) {
-        let read = number(cell).filter(|number| !number.is_infinite());
-        *value = read.ok_or_else(|| line.error(quoted(cell), expected_number(cell)))?;
+        *value = number(cell).ok_or_else(|| line.error(quoted(cell), expected_number(cell)))?;
     }
     Ok(if position.iter().any(|value| value.is_nan()) { [f64::NAN; 3] } else { position })
 }

@@ -75,6 +75,7 @@ def forces(
     refit: bool = False,
     ground: bool = True,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
@@ -86,6 +87,7 @@ def forces(
     filter: str | None = None,
     cutoff: _Cutoff | None = None,
     force_cutoff: _Cutoff | None = None,
+    force_delay: float | None = None,
     order: int | None = None,
     consistent: bool | str | None = None,
     device: Recording | Table | _Path | None = None,
@@ -120,7 +122,7 @@ def forces(
     right, left : str, optional
         Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     plates : mapping of int to str, optional
-        Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
+        Foot of each force plate, counted from 1, and corrections of its signs and directions: ``{1: "r", 2: "off", 3: "flip-y"}``.
     trial : int or str, optional
         The trial of a ``.b3d``: its number, counted from 1, or its name. All trials take one call each.
     smpl : str, path-like or bytes, optional
@@ -141,6 +143,8 @@ def forces(
         False computes without ground forces.
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -161,6 +165,8 @@ def forces(
         Low-pass filter of the motion [Hz].
     force_cutoff : float, "same" or "off", optional
         Low-pass filter of the measured forces [Hz].
+    force_delay : float, optional
+        By how much the measured forces were recorded late against the motion [s]; negative if they are early.
     order : int, optional
         Order of one pass of the Butterworth filters.
     consistent : bool or {"motion", "body"}, optional
@@ -221,6 +227,7 @@ def forces(
         "track": track,
         "refit": refit,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,
@@ -231,6 +238,7 @@ def forces(
         "filter": filter,
         "cutoff": cutoff,
         "force_cutoff": force_cutoff,
+        "force_delay": force_delay,
         "order": order,
         "consistent": consistent,
         "add_mass": None if add_mass is None else list(add_mass),
@@ -278,11 +286,13 @@ def calibrate_person(
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
+    subject: str | None = None,
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     plates: Mapping[int, str] | None = None,
     fit: str | None = None,
     max_gap: float | None = None,
+    force_delay: float | None = None,
 ) -> Person:
     """Compare the predicted ground forces of one person with force plates, to correct later predictions: ``ambulo calibrate``.
 
@@ -302,6 +312,8 @@ def calibrate_person(
         Stature [m].
     figure : str, optional
         Table of segment masses of the built-in body.
+    subject : str, optional
+        The person in recordings of several people: the prefix of the marker names. By default these are refused.
     markers : str or path-like, optional
         The marker set: a name, or a ``.toml``.
     marker_set : str, path-like or bytes, optional
@@ -312,6 +324,8 @@ def calibrate_person(
         How markers are fitted.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
+    force_delay : float, optional
+        By how much the measured forces were recorded late against the motion [s]; negative if they are early.
 
     Returns
     -------
@@ -340,9 +354,11 @@ def calibrate_person(
         "mass": mass,
         "height": height,
         "figure": figure,
+        "subject": subject,
         "markers": markers,
         "fit": fit,
         "max_gap": max_gap,
+        "force_delay": force_delay,
     }
     return Person(_ambulo.calibrate(paths, options, inputs.files()))
 

@@ -52,21 +52,45 @@ def _draw(panel: Any, result: Result, table: Table, name: str, over: str) -> Non
             panel.plot(table.time, table[column], color=color, label=word)
             continue
         percent = np.arange(101)
-        curves = [
-            np.interp(start + percent / 100 * (end - start), table.time, table[column])
-            for start, end in _strides(result, side)
-        ]
+        strides, is_predicted = _strides(result, side, depends_on_forces=_depends_on_forces(name))
+        curves = [np.interp(start + percent / 100 * (end - start), table.time, table[column]) for start, end in strides]
         if curves:
-            panel.plot(percent, np.mean(curves, axis=0), color=color, label=word)
+            label = f"{word}, predicted" if is_predicted else word
+            panel.plot(percent, np.mean(curves, axis=0), color=color, label=label)
     unit = table.unit(next(column for column in (f"{name}_r", f"{name}_l") if column in table))
     panel.set(title=name.replace("_", " "), ylabel=unit, xlabel="s" if over == "time" else "% of the gait cycle")
 
 
-def _strides(result: Result, side: str) -> list[tuple[float, float]]:
-    """Return the times from foot strike to foot strike of one foot [s]."""
+def _depends_on_forces(name: str) -> bool:
+    return name.startswith("ground_force") or name.endswith(("_moment", "_power"))
+
+
+def _strides(result: Result, side: str, *, depends_on_forces: bool) -> tuple[list[tuple[float, float]], bool]:
+    """Return the times from foot strike to foot strike of one foot [s], and whether their loads are predicted.
+
+    Of a curve that depends on forces, only the strides whose stance was measured; without any, those that were predicted.
+    """
     events = result.events
     if events is None:
-        return []
+        return [], False
     rows = zip(events["side"], events["event"], events["time"], strict=True)
     strikes = [time for of_side, event, time in rows if of_side == side and event == "strike"]
-    return list(zip(strikes[:-1], strikes[1:], strict=True))
+    strides = list(zip(strikes[:-1], strikes[1:], strict=True))
+    stances = result.stances
+    if stances is None or not depends_on_forces:
+        return strides, False
+    rows = zip(stances["side"], stances["start"], stances["end"], stances["source"], strict=True)
+    known = [(start, end, source) for of_side, start, end, source in rows if of_side == side]
+    sources = [_source(known, stride) for stride in strides]
+    measured = [stride for stride, source in zip(strides, sources, strict=True) if source.startswith(("plate", "table"))]
+    if measured:
+        return measured, False
+    return [stride for stride, source in zip(strides, sources, strict=True) if source == "predicted"], True
+
+
+def _source(stances: Sequence[tuple[float, float, str]], stride: tuple[float, float]) -> str:
+    """Return the source of the load in a stride; a stride with stances of several sources has none."""
+    start, end = stride
+    # A stance that reaches into the stride from before it, or out of it, belongs to another stride.
+    sources = {source for first, last, source in stances if start <= 0.5 * (first + last) < end}
+    return sources.pop() if len(sources) == 1 else ""

@@ -122,6 +122,11 @@ class Result:
         return self._table("events.csv")
 
     @property
+    def stances(self) -> Table | None:
+        """Stances with the source of their loads (``plate 1``, ``table``, ``predicted``, ``unknown``), as ``stances.csv``."""
+        return self._table("stances.csv")
+
+    @property
     def clinical(self) -> Table | None:
         """Angles [deg], moments [N.m/kg], powers [W/kg] and ground forces [body weights] in clinical signs, as ``clinical.csv``."""
         return self._table(_CLINICAL)

@@ -6,11 +6,10 @@ use super::cycle_panel::dashes;
 use super::sheet::{Sample, Sheet, Slot};
 use super::svg::{Drawing, Stroke};
 use crate::style::{Style, style};
-use ambulo::analysis::{Analysis, residual_sizes};
+use ambulo::analysis::{Analysis, Residual, residual_sizes};
 use ambulo::ground::predict::Prediction;
 use ambulo::ground::{BodyForces, feet};
 use ambulo::model::{Model, Side};
-use ambulo::numerics::rms;
 use ambulo::spatial::Vec3;
 
 const HEIGHT: f64 = 84.0;
@@ -58,13 +57,7 @@ pub(crate) fn residual_figure(
     let stroke = Stroke::solid(&style.text.color, 0.8 * style.lines_pt.mean);
     let line = |values: Vec<f64>| vec![Series { role: "residual", side: None, values, spread: None, stroke }];
     let [force, moment] = [0, 1].map(|k| sizes.iter().map(|size| size[k]).collect::<Vec<f64>>());
-    let note = format!(
-        "Root mean square {:.1} N ({:.1} % of body weight) and {:.1} N·m. The motion requires them, but neither joints \
-         nor ground supply them: errors of motion, body and forces.",
-        rms(&force),
-        100.0 * rms(&force) / weight.max(f64::MIN_POSITIVE),
-        rms(&moment)
-    );
+    let note = residual_note(analysis.residual, weight);
     let directions = ["", ""];
     let panels = [
         Panel {
@@ -87,6 +80,18 @@ pub(crate) fn residual_figure(
     let figure =
         TimeFigure { style, title: "Residual force and moment", caption, legend: Vec::new(), notes: vec![note] };
     Ok(Some(figure.draw(&analysis.trajectory.grid().times(), &panels)))
+}
+
+/// The size of the residual where all ground forces are known, and what it is.
+fn residual_note(residual: Option<Residual>, weight_n: f64) -> String {
+    let about =
+        "The motion requires them, but neither joints nor ground supply them: errors of motion, body and forces.";
+    let Some(Residual { force_rms_n, moment_rms_nm, .. }) = residual else { return about.to_owned() };
+    let percent = 100.0 * force_rms_n / weight_n.max(f64::MIN_POSITIVE);
+    format!(
+        "Root mean square where all ground forces are known: {force_rms_n:.1} N ({percent:.1} % of body weight) and \
+         {moment_rms_nm:.1} N·m. {about}"
+    )
 }
 
 /// A motion with predicted forces.

@@ -56,9 +56,11 @@ impl ComputedTrial {
         let gravity_m_s2 = body.gravity().norm();
         let (angles, convention) = angles_of(outcome, chosen);
         // All trials of a session have one body, and their forces one mass.
-        let moving = Curves::of(body, analysis, angles.as_ref()).per_mass(body.mass());
+        let unmeasured = &outcome.not_measured;
+        let moving = Curves::of(body, analysis, angles.as_ref()).without(unmeasured).per_mass(body.mass());
         let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
-        let on_plates = measured.map(|measured| (measured, Curves::of(body, measured, None).per_mass(body.mass())));
+        let on_plates = measured
+            .map(|measured| (measured, Curves::of(body, measured, None).without(unmeasured).per_mass(body.mass())));
         let progression = foot_progression(body, &person.soles, analysis);
         let mut reader = CurveReader { values: BTreeMap::new() };
         let cycles = analysis.cycles.iter().zip(progression).map(|(cycle, progression)| {
@@ -69,6 +71,7 @@ impl ComputedTrial {
             };
             let mut curves = reader.of_cycle(cycle, (analysis, &moving), source, forces);
             let in_degrees = |angles: Vec<f64>| angles.into_iter().map(f64::to_degrees).collect();
+            let progression = progression.filter(|_| !is_foot_unmeasured(outcome, cycle.side));
             curves.extend(progression.map(|angles| (FOOT_PROGRESSION.to_owned(), in_degrees(angles))));
             session_cycle(cycle, forces, curves)
         });
@@ -96,6 +99,12 @@ impl ComputedTrial {
             convention,
         }
     }
+}
+
+/// Whether the direction of a foot is unknown, because a joint of its leg is not measured.
+fn is_foot_unmeasured(outcome: &Outcome, side: Side) -> bool {
+    let anatomy = outcome.body.anatomy();
+    outcome.not_measured.iter().any(|id| anatomy.coordinate_side(*id) == Some(side))
 }
 
 fn session_cycle(cycle: &Cycle, forces: CycleForces, curves: BTreeMap<String, Vec<f64>>) -> SessionCycle {

@@ -5,14 +5,16 @@
 //! trial, or take it unchanged; fit its coordinates to the markers; assign the measured forces to the feet on the
 //! plates.
 
+use super::fitted_feet::with_fitted_feet;
 use super::ground_agreement::PlateCoverage;
+use super::identity;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::{Progress, Stage};
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
-use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates};
+use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::kinematics::marker_fit::{
@@ -42,6 +44,8 @@ pub struct BodyInMotion {
     pub on_plates: FeetOnPlates,
     /// Noise and faults of keypoints of video; `None` for markers.
     pub keypoints: Option<KeypointReport>,
+    /// What contradicts the labels of the markers or the standing trial, one sentence each.
+    pub contradictions: Vec<String>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -79,6 +83,11 @@ pub(crate) fn fit_body_to_markers(
 ) -> Result<BodyInMotion, MarkerTrialError> {
     let MarkerTrial { trial, standing, bodies, body, plate_feet } = trial;
     let set = body.marker_set();
+    for recording in [Some(*trial), *standing].into_iter().flatten() {
+        identity::refuse_several(&recording.markers)?;
+    }
+    let mut contradictions = Vec::new();
+    let trial = &*identity::with_right_labels(trial, "recording", set, &mut contradictions, findings);
     let (axes, LaboratoryRecording { markers, poses, plates, .. }) = body.turned(trial, findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
@@ -88,13 +97,17 @@ pub(crate) fn fit_body_to_markers(
     }
     let keypoints = Keypoints::recognised(&markers, set);
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
-    let calibrated = |findings: &mut Findings| {
-        let standing = standing.map(|standing| body.turned(standing, findings).1.markers);
-        let standing = standing.map(|found| Keypoints::recognised(&found, set).map_or(found, |points| points.smooth));
-        Subject::of_source(body, moving, standing.as_ref(), findings)
-    };
-    let subject = match (standing, bodies) {
-        (Some(_), Some(bodies)) => bodies.subject(body, findings, calibrated)?,
+    let standing = standing.map(|standing| {
+        let standing = identity::with_right_labels(standing, "standing trial", set, &mut contradictions, findings);
+        let found = body.turned(&standing, findings).1.markers;
+        Keypoints::recognised(&found, set).map_or(found, |points| points.smooth)
+    });
+    let whole = standing.as_ref().and_then(|standing| body.completed(standing, moving, findings));
+    let calibrated =
+        |findings: &mut Findings| Subject::of_source(body, moving, whole.as_ref().or(standing.as_ref()), findings);
+    // A body that needs the motion besides the standing trial is not that of the other motions.
+    let subject = match (&standing, bodies) {
+        (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(body, findings, calibrated)?,
         _ => calibrated(findings)?,
     };
     progress.end(Stage::Body)?;
@@ -103,24 +116,34 @@ pub(crate) fn fit_body_to_markers(
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let (mut fit, followed, keypoints) = match keypoints {
-        Some(keypoints) => {
-            let FollowedKeypoints { fit, smooth, report } =
-                fit_keypoints(&subject.model, keypoints, &settings, findings)?;
-            (fit, smooth, Some(report))
-        }
-        None => {
-            let (fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
-            (fit, followed, None)
-        }
-    };
+    let (mut fit, followed, keypoints) = fit_points(&subject.model, markers, keypoints, &settings, findings)?;
+    if let (Some(standing), None) = (&standing, &keypoints) {
+        let moved = identity::moved(&subject, &followed, &settings);
+        identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
+    }
     if subject.calibration.is_some() {
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet };
-    Ok(BodyInMotion { keypoints, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+    Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+}
+
+/// The fit of the markers, or of the keypoints if these points are keypoints; with the points that the body follows.
+fn fit_points(
+    model: &Model,
+    markers: MarkerRecording,
+    keypoints: Option<Keypoints>,
+    settings: &FitSettings,
+    findings: &mut Findings,
+) -> Result<(MarkerFit, MarkerRecording, Option<KeypointReport>), MarkerTrialError> {
+    let Some(keypoints) = keypoints else {
+        let (fit, followed) = fit_own_markers(model, markers, settings, findings)?;
+        return Ok((fit, followed, None));
+    };
+    let FollowedKeypoints { fit, smooth, report } = fit_keypoints(model, keypoints, settings, findings)?;
+    Ok((fit, smooth, Some(report)))
 }
 
 /// The laboratory around a body whose motion is known.
@@ -144,12 +167,24 @@ impl OnFloor<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<BodyInMotion, MarkerTrialError> {
         let OnFloor { axes, plates, points, set, plate_feet } = self;
+        let shown = with_fitted_feet(points, set, &subject, &fit.motion);
+        let points = shown.as_ref().unwrap_or(points);
         let landmarks = Landmarks::named(points, set);
         let feet = foot_motion_of_landmarks(points, &landmarks, findings);
         let moving = FeetInMotion { markers: points, landmarks, motion: &feet };
+        let plates = plates_under_moving_feet(&moving, plates, findings);
         let on_plates = feet_in_motion_on_plates(&moving, &plates, plate_feet, findings);
         progress.end(Stage::Feet)?;
-        Ok(BodyInMotion { subject, laboratory: axes, plates, fit, feet, on_plates, keypoints: None })
+        Ok(BodyInMotion {
+            subject,
+            laboratory: axes,
+            plates,
+            fit,
+            feet,
+            on_plates,
+            keypoints: None,
+            contradictions: Vec::new(),
+        })
     }
 }
 

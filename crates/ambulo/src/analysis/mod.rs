@@ -6,8 +6,10 @@ mod cycles;
 mod event_agreement;
 mod events;
 pub mod feasibility;
+mod fitted_feet;
 pub(crate) mod foot_progression;
 mod ground_agreement;
+pub(crate) mod identity;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
@@ -45,9 +47,9 @@ pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{BodyInMotion, body_in_motion};
 pub use peaks::{Peak, peak};
 pub use predicted::analyse_predicted_trajectory;
-pub(crate) use predicted::predict_and_analyse;
 #[doc(hidden)]
 pub use predicted::{PredictedAnalysis, PredictionInput};
+pub(crate) use predicted::{predict_and_analyse, predicted_in_frames};
 #[doc(hidden)]
 pub use prediction_checks::{CheckSettings, CheckedPrediction, PlateMass};
 pub use prediction_checks::{PredictionCheck, PredictionChecks, prediction_checks};
@@ -56,7 +58,7 @@ pub use progress::{Stage, Stopped};
 pub use recording::{Analysis, AnalysisError, Mass, MassSource, analyse, analyse_trajectory};
 #[doc(hidden)]
 pub use recording::{AnalysisSettings, ForceSource};
-pub(crate) use recording::{analyse_measured, analyse_with_progress, recorded_trajectory};
+pub(crate) use recording::{analyse_measured, recorded_trajectory, trajectory_of_measured, vertical_by_side};
 pub use residual::{Residual, residual, residual_sizes};
 pub use residual_reduction::Adjustable;
 pub(crate) use residual_reduction::reduce_residual;

@@ -55,17 +55,29 @@ pub(crate) fn predict_and_analyse(
 ) -> Result<PredictedAnalysis, AnalysisError> {
     let trajectory = trajectory_within(model, motion.borrow(), &[], settings, settings.window, findings)?;
     progress.end(Stage::Smoothing)?;
-    let whole = prediction_of_whole_motion(model, motion.borrow(), settings, trajectory.grid(), input, findings);
+    let prediction = predicted_in_frames(model, motion.borrow(), &trajectory, settings, input, findings)?;
     drop(motion);
-    let prediction = match whole {
-        Some(prediction) => prediction?,
-        None => {
-            let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
-            predict(model, &trajectory, input.soles, &passed, findings)?
-        }
-    };
     progress.end(Stage::Prediction)?;
     with_plates(model, trajectory, prediction, plates, settings.instrumented, input, findings, progress)
+}
+
+/// Predicts the ground forces in the frames of a trajectory, which is a part of the recorded motion.
+///
+/// # Errors
+/// Bodies for which no forces can be predicted: see [`PredictError`](crate::ground::predict::PredictError).
+pub(crate) fn predicted_in_frames(
+    model: &Model,
+    motion: &Motion,
+    trajectory: &Trajectory,
+    settings: AnalysisSettings,
+    input: &PredictionInput<'_>,
+    findings: &mut Findings,
+) -> Result<Prediction, AnalysisError> {
+    if let Some(whole) = prediction_of_whole_motion(model, motion, settings, trajectory.grid(), input, findings) {
+        return whole;
+    }
+    let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
+    Ok(predict(model, trajectory, input.soles, &passed, findings)?)
 }
 
 /// Predicts from the whole recording, also outside the window, and with the low-pass filter that was used to fit the

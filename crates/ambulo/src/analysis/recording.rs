@@ -151,22 +151,25 @@ pub fn analyse(
     settings: AnalysisSettings,
     findings: &mut Findings,
 ) -> Result<Analysis, AnalysisError> {
-    analyse_with_progress(model, motion, plates, settings, findings, &mut Progress::default())
+    let trajectory = trajectory_of_measured(model, motion, plates, settings, findings)?;
+    let source = ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented };
+    analyse_trajectory(model, trajectory, plates, source, findings)
 }
 
-pub(crate) fn analyse_with_progress(
+/// The motion, smoothed and completed, during the time that the force recordings cover; with a finding if that is not
+/// the whole window.
+///
+/// # Errors
+/// A motion that cannot be smoothed: see [`AnalysisError`].
+pub(crate) fn trajectory_of_measured(
     model: &Model,
     motion: &Motion,
     plates: &[ForceRecording],
     settings: AnalysisSettings,
     findings: &mut Findings,
-    progress: &mut Progress<'_>,
-) -> Result<Analysis, AnalysisError> {
+) -> Result<Trajectory, AnalysisError> {
     let window = covered(motion, plates, settings.window, findings);
-    let trajectory = trajectory_within(model, motion, plates, settings, window, findings)?;
-    progress.end(Stage::Smoothing)?;
-    let source = ForceSource::Measured { filter: settings.force_filter, within: settings.instrumented };
-    analyse_measured(model, trajectory, plates, source, findings, progress)
+    trajectory_within(model, motion, plates, settings, window, findings)
 }
 
 /// The whole motion, smoothed and completed.
@@ -292,12 +295,23 @@ fn with_requested_window(
     motion: &Motion,
     plates: &[ForceRecording],
 ) -> MotionError {
-    let MotionError::TooShort { found, expected, .. } = error else { return error };
+    let (found, expected) = match error {
+        MotionError::TooShort { found, expected, .. } => (found, expected),
+        MotionError::Outside { .. } => (0, 1),
+        other => return other,
+    };
     let whole = Window { from_s: motion.times.first().copied(), to_s: motion.times.last().copied() };
     let both = plates.iter().fold(whole, |window, plate| window.overlap(recorded(plate)));
     let (first_s, last_s) = (both.from_s.unwrap_or(f64::NAN), both.to_s.unwrap_or(f64::NAN));
     let (from_s, to_s) = (requested.from_s.unwrap_or(first_s), requested.to_s.unwrap_or(last_s));
-    MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }
+    let forces = plates.iter().map(recorded).reduce(Window::overlap);
+    let span = |window: Window| [window.from_s.unwrap_or(f64::NAN), window.to_s.unwrap_or(f64::NAN)];
+    match forces {
+        Some(forces) if first_s > last_s || requested == Window::default() => {
+            MotionError::NoCommonTime { found, motion_s: span(whole), forces_s: span(forces) }
+        }
+        _ => MotionError::TooShort { found, expected, from_s, to_s, first_s, last_s }.or_outside(),
+    }
 }
 
 pub(super) fn recorded(plate: &ForceRecording) -> Window {
@@ -346,10 +360,10 @@ fn covered(motion: &Motion, plates: &[ForceRecording], window: Window, findings:
     covered
 }
 
-type TimedForce = (Vec<f64>, Vec<f64>);
+pub(crate) type TimedForce = (Vec<f64>, Vec<f64>);
 
 /// Times and total vertical force [N] of each measured foot, as recorded.
-fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
+pub(crate) fn vertical_by_side(model: &Model, plates: &[ForceRecording], up: Vec3) -> Vec<(Side, TimedForce)> {
     let mut list = Vec::new();
     for side in Side::BOTH {
         let of_side = |p: &&ForceRecording| model.anatomy().body_side(p.body) == Some(side);

@@ -1,6 +1,7 @@
 //! The body that is fitted to markers: where it comes from, and how it is made.
 
 use super::feasibility::Person;
+use super::identity::completed;
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::Stopped;
 use crate::findings::{Code, Findings};
@@ -65,6 +66,19 @@ impl<'a> BodySource<'a> {
         }
     }
 
+    /// The standing trial with the markers that only the motion has, both in world axes; `None` if it lacks none.
+    pub(super) fn completed(
+        &self,
+        standing: &MarkerRecording,
+        moving: &MarkerRecording,
+        findings: &mut Findings,
+    ) -> Option<MarkerRecording> {
+        match self {
+            BodySource::BuiltIn { person, set } => completed(standing, moving, person, *set, findings),
+            BodySource::Model { .. } | BodySource::Calibrated(_) => None,
+        }
+    }
+
     /// The marker set that the caller names.
     pub(super) fn marker_set(&self) -> Option<&'a MarkerSet> {
         match self {
@@ -109,6 +123,26 @@ pub enum MarkerTrialError {
     /// The poses of the segments give no body.
     #[error(transparent)]
     Poses(#[from] JointCentreError),
+    /// The markers of several people.
+    #[error(
+        "{recording} has the markers of {} people: {}; expected one person. hint: choose one of them by name",
+        people.len(),
+        people.join(", ")
+    )]
+    SeveralPeople {
+        /// Name of the recording.
+        recording: String,
+        /// The prefixes of the marker names.
+        people: Vec<String>,
+    },
+    /// A person who is not in the recording.
+    #[error("no person in the recording is named `{found}`; expected one of: {}", people.join(", "))]
+    NoSuchPerson {
+        /// The requested name.
+        found: String,
+        /// The prefixes of the marker names.
+        people: Vec<String>,
+    },
     /// Poses of segments for a model that has other segments.
     #[error(
         "the recording has poses of segments, which drive the built-in body; the model `{model}` has its own segments \

@@ -113,6 +113,22 @@ impl BodyForces {
         }
     }
 
+    /// The sum of loads on the body of the first one, each times its weight in every frame.
+    #[must_use]
+    pub(crate) fn weighted_sum(parts: &[(&BodyForces, &[f64])], up: Vec3) -> BodyForces {
+        let scaled = |values: &[Vec3], weights: &[f64]| -> Vec<Vec3> {
+            values.iter().zip(weights).map(|(value, weight)| value * *weight).collect()
+        };
+        let wrenches: Vec<[Vec<Vec3>; 2]> =
+            parts.iter().map(|(part, weights)| [&part.force, &part.moment].map(|of| scaled(of, weights))).collect();
+        let sensors: Vec<SensorWrench<'_>> = wrenches
+            .iter()
+            .zip(parts)
+            .map(|([force, moment], (part, _))| (force.as_slice(), moment.as_slice(), part.surface_height.as_slice()))
+            .collect();
+        combine(parts[0].0.body, &sensors, up)
+    }
+
     fn load(&self) -> LoadSeries {
         let wrench = |(force, moment): (&Vec3, &Vec3)| Wrench { moment: *moment, force: *force };
         LoadSeries {
@@ -208,6 +224,49 @@ fn body_poses(model: &Model, trajectory: &Trajectory) -> Vec<Vec<Pose>> {
     let mut poses = Vec::with_capacity(trajectory.grid().frames);
     each_body_motion(model, trajectory, |_, bodies| poses.push(bodies.iter().map(|b| b.pose).collect()));
     poses
+}
+
+/// The total of measured forces, filtered, at any time.
+pub(crate) struct TotalLoad {
+    /// Times [s] of each sensor, with force [N] and moment about the world's origin [N.m].
+    sensors: Vec<(Vec<f64>, [Vec<f64>; 6])>,
+}
+
+impl TotalLoad {
+    /// Of the recordings around a trajectory; `None` if one of them cannot be used.
+    pub(crate) fn new(
+        model: &Model,
+        trajectory: &Trajectory,
+        recordings: &[ForceRecording],
+        filter: Option<LowPass>,
+    ) -> Option<TotalLoad> {
+        let sensor = |recording: &ForceRecording| {
+            let recording = in_world(model, trajectory, &usable(recording, trajectory.grid()));
+            let mut columns = about_origin(&recording, &mut Findings::default()).ok()?;
+            if let Some(filter) = filter {
+                low_pass_all(&recording, &mut columns, filter).ok()?;
+            }
+            Some((recording.times, columns))
+        };
+        Some(TotalLoad { sensors: recordings.iter().map(sensor).collect::<Option<_>>()? })
+    }
+
+    /// The time that every sensor recorded [s].
+    pub(crate) fn covers(&self) -> Option<[f64; 2]> {
+        let ends = self.sensors.iter().map(|(times, _)| Some([*times.first()?, *times.last()?]));
+        let common = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a.max(c), b.min(d)];
+        ends.reduce(|all, own| Some(common(all?, own?)))?
+    }
+
+    /// Force [N] and moment about the world's origin [N.m].
+    pub(crate) fn at(&self, time_s: f64) -> Wrench {
+        let mut total = Wrench::ZERO;
+        for (times, columns) in &self.sensors {
+            let vector = |k: usize| Vec3::from_fn(|axis, _| interpolate(times, &columns[k + axis], time_s));
+            total = Wrench { force: total.force + vector(0), moment: total.moment + vector(3) };
+        }
+        total
+    }
 }
 
 fn resampled(
@@ -354,7 +413,7 @@ fn combine(body: BodyId, parts: &[SensorWrench<'_>], up: Vec3) -> BodyForces {
 }
 
 /// Centre of pressure [m] and free moment [N.m] of a wrench about the origin; not a number below the threshold.
-pub(super) fn center_of_pressure(force: Vec3, moment: Vec3, up: Vec3, height: f64) -> (Vec3, Vec3) {
+pub(crate) fn center_of_pressure(force: Vec3, moment: Vec3, up: Vec3, height: f64) -> (Vec3, Vec3) {
     let vertical = force.dot(&up);
     if vertical < CENTER_OF_PRESSURE_LOAD_N {
         return (Vec3::repeat(f64::NAN), Vec3::repeat(f64::NAN));

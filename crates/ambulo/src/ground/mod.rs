@@ -8,7 +8,9 @@ pub mod phases;
 pub mod plates;
 pub mod predict;
 pub(crate) mod refit;
+pub mod stances;
 pub mod stream;
 
 pub(crate) use load_sides::{FootPaths, LoadedSpan};
 pub use measured::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, GroundForces, feet, measured};
+pub(crate) use measured::{TotalLoad, center_of_pressure};

@@ -3,6 +3,7 @@
 use super::error::{At, Field, JobError};
 use super::files::{Files, last, read};
 use ambulo_formats::bids_motion::BidsMotion;
+use ambulo_formats::content;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,9 @@ pub fn read_bids(files: &mut dyn Files, path: &Path) -> Result<BidsFiles, JobErr
     let shown = path.display().to_string();
     let Some([channels, description]) = bids_files_beside(path) else {
         let what = "a .tsv is read as motion of a BIDS data set; expected a name that ends with";
-        return Err(JobError::new(&[Field::Recording], format!("{what} {MOTION}")).within(shown));
+        let own = content(&read(files, path)?);
+        let own = own.map_or_else(String::new, |(own, remedy)| format!("; the content is {own}. hint: {remedy}"));
+        return Err(JobError::new(&[Field::Recording], format!("{what} {MOTION}{own}")).within(shown));
     };
     let motion = read(files, path)?;
     let of_channels = read(files, &channels)

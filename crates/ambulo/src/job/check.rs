@@ -5,6 +5,9 @@ use super::{ForceFiles, Job};
 use crate::motion::filter::MAX_ORDER;
 use crate::study::GroundSettings;
 
+/// Longest delay between force plates and cameras that is a delay, and not another recording [s].
+const LONGEST_DELAY_S: f64 = 60.0;
+
 impl Job {
     /// Rejects statements of one caller that contradict each other, before anything is read. A job that was completed
     /// by a set-up or by the files of a trial may have them.
@@ -48,6 +51,13 @@ impl Job {
         if !(settings.longest_gap_s.is_finite() && settings.longest_gap_s >= 0.0) {
             let what = format!("found a longest gap of {} s; expected zero or more", settings.longest_gap_s);
             return Err(JobError::new(&[Field::Gap], what));
+        }
+        if !(-LONGEST_DELAY_S..=LONGEST_DELAY_S).contains(&settings.force_delay_s) {
+            let what = format!(
+                "found a force delay of {} s; expected at most {LONGEST_DELAY_S} s, late or early (negative)",
+                settings.force_delay_s
+            );
+            return Err(JobError::new(&[Field::ForceDelay], what));
         }
         self.check_range()
     }

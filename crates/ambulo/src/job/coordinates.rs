@@ -3,7 +3,7 @@
 use super::error::{At, Field, JobError};
 use super::files::{ending, read_table};
 use super::model_file::read_model;
-use super::{Job, Reading, bids, ground_table, size};
+use super::{Job, Reading, bids, ground_table};
 use crate::model::Model;
 use crate::motion::{Motion, coordinates_from_bids, coordinates_from_table};
 use crate::study::Source;
@@ -11,6 +11,10 @@ use std::path::Path;
 
 pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
     let Some(model_path) = job.model_file() else {
+        if ending(job.recording()) != "tsv" {
+            // A file that cannot be read needs another one before it needs a model.
+            read_table(reading.files, job.recording(), reading.findings)?;
+        }
         let what = "coordinates need their model; expected an .osim. hint: markers (.c3d, .trc) need no model";
         return Err(JobError::new(&[Field::Model], what).within(job.shown()));
     };
@@ -20,7 +24,6 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
         return Err(JobError::new(&[Field::Recording], what).within(job.shown()));
     }
     reject_marker_fields(job)?;
-    size::check(job.size)?;
     let model = read_model(model_path, None, reading)?;
     (reading.progress)("read_model");
     let motion = read_motion(&model, job.recording(), reading)?;

@@ -65,6 +65,8 @@ pub enum Field {
     Order,
     /// The longest gap that is interpolated.
     Gap,
+    /// The delay of the measured forces.
+    ForceDelay,
     /// The method of the marker fit.
     Fit,
     /// The residual reduction.
@@ -99,6 +101,7 @@ impl Field {
             Field::Cutoff => "cut-off",
             Field::Order => "order of the filters",
             Field::Gap => "longest gap",
+            Field::ForceDelay => "force delay",
             Field::Fit => "marker fit",
             Field::ResidualReduction => "residual reduction",
         }

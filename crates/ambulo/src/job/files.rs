@@ -74,7 +74,9 @@ pub(super) fn read_table(files: &mut dyn Files, path: &Path, findings: &mut Find
 /// A file that is no such table.
 pub fn table(path: &Path, bytes: &[u8]) -> Result<(Table, Vec<Remark>), JobError> {
     let read = if ending(path) == "csv" { Table::read_csv(bytes) } else { Table::read_storage(bytes) };
-    read.in_file(path)
+    let (mut table, mut remarks) = read.in_file(path)?;
+    remarks.extend(table.without_impossible());
+    Ok((table, remarks))
 }
 
 /// Reports the remarks of a reader as findings.

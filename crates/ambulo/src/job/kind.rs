@@ -4,6 +4,7 @@ use super::error::{At, Field, JobError};
 use super::files::{Files, ending, read, table};
 use super::{bids, sensors};
 use crate::motion::{is_bids_markers, is_marker_table};
+use ambulo_formats::content;
 use std::path::Path;
 
 /// The kinds of recording.
@@ -20,8 +21,8 @@ pub(super) enum RecordingKind {
 impl RecordingKind {
     pub(super) fn of(input: &Path, files: &mut dyn Files) -> Result<RecordingKind, JobError> {
         match ending(input).as_str() {
-            "csv" if has_markers(input, files) => Ok(RecordingKind::Markers),
-            "mot" | "sto" if sensors::is_recording(input, files) => Ok(RecordingKind::Sensors),
+            "csv" if is_marker_table(&table(input, &read(files, input)?)?.0) => Ok(RecordingKind::Markers),
+            "mot" | "sto" if sensors::is_recording(input, files)? => Ok(RecordingKind::Sensors),
             "mot" | "sto" | "csv" => Ok(RecordingKind::Coordinates),
             "c3d" | "trc" | "mvnx" => Ok(RecordingKind::Markers),
             "tsv" => {
@@ -32,22 +33,23 @@ impl RecordingKind {
             "bvh" => Ok(RecordingKind::Skeleton),
             "npz" => Ok(RecordingKind::Smpl),
             "b3d" => Ok(RecordingKind::Subject),
-            other => Err(JobError::new(&[Field::Recording], unknown(other)).within(input.display().to_string())),
+            other => {
+                let what = unknown(other, &read(files, input)?);
+                Err(JobError::new(&[Field::Recording], what).within(input.display().to_string()))
+            }
         }
     }
 }
 
-/// Whether a table has the columns of markers. A file that cannot be read has none.
-fn has_markers(input: &Path, files: &mut dyn Files) -> bool {
-    let table = read(files, input).and_then(|bytes| table(input, &bytes));
-    table.is_ok_and(|(table, _)| is_marker_table(&table))
-}
-
-fn unknown(ending: &str) -> String {
+/// What is said of a file whose name shows no kind of recording: its content may.
+fn unknown(ending: &str, bytes: &[u8]) -> String {
     let found = match ending {
         "" => "its name has no extension".to_owned(),
-        other => format!("unknown kind of recording `.{other}`"),
+        other => format!("unknown kind of recording `.{}`", other.trim_end()),
     };
+    if let Some((content, remedy)) = content(bytes) {
+        return format!("{found}; the content is {content}. hint: {remedy}");
+    }
     format!(
         "{found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), .sto with \
          quaternions (sensors), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a \

@@ -5,22 +5,23 @@ use super::files::{ending, read as read_file};
 use super::laboratory::read_laboratory_file;
 use super::model_file::read_model;
 use super::values::PlateFoot;
-use super::{Job, Reading, ground_table, size};
+use super::{Job, Reading, ground_table};
 use crate::model::marker_set::MarkerSet;
-use crate::study::{MarkerBody, MarkerSource, PlateAssignment, PlateUse, Source, StandingTrial, standing_trial};
+use crate::study::{MarkerBody, MarkerSource, PlateAssignment, Source, StandingTrial, standing_trial};
 use std::path::Path;
 use std::sync::Arc;
 
 pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
     check(job)?;
     let trial = read_laboratory_file(job.recording(), reading.files, reading.findings)?;
-    let standing = job.standing.as_deref().map(|path| shared_standing_trial(path, reading)).transpose()?;
+    let trial = trial.of_person(job.subject.as_deref()).at(job.shown())?;
+    let standing = job.standing.as_deref().map(|path| shared_standing_trial(path, job, reading)).transpose()?;
     (reading.progress)("read_markers");
     let body = body(job, reading)?;
-    let plates = job.plates.iter().map(|PlateFoot { plate, side }| PlateAssignment {
-        plate: plate - 1,
-        used: side.map_or(PlateUse::Off, PlateUse::Foot),
-    });
+    let statements = |PlateFoot { plate, uses }: &PlateFoot| -> Vec<PlateAssignment> {
+        uses.iter().map(|used| PlateAssignment { plate: plate - 1, used: *used }).collect()
+    };
+    let plates = job.plates.iter().flat_map(statements);
     let markers = MarkerSource { trial, standing, body, plates: plates.collect() };
     let forces = ground_table::read(job, reading)?;
     let source = Source::markers(markers);
@@ -60,7 +61,6 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         }
         return Ok(());
     }
-    size::check(job.size)?;
     if job.size.height_m.is_some() && job.standing.is_some() {
         let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
         return Err(JobError::new(&[Field::Height], what));
@@ -80,10 +80,10 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
 }
 
 /// The standing trial of the person, which other jobs may share.
-fn shared_standing_trial(path: &Path, reading: &mut Reading<'_>) -> Result<Arc<StandingTrial>, JobError> {
+fn shared_standing_trial(path: &Path, job: &Job, reading: &mut Reading<'_>) -> Result<Arc<StandingTrial>, JobError> {
     reading.read.push(path.to_owned());
     let Reading { files, findings, standing_trials, .. } = reading;
-    standing_trial(findings, |findings| standing_trials.read(path, *files, findings))
+    standing_trial(findings, |findings| standing_trials.read(path, job.subject.as_deref(), *files, findings))
 }
 
 /// A marker set by its name, or from a file.

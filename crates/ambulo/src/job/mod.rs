@@ -92,6 +92,9 @@ pub struct Job {
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
+    /// The person in recordings of several people: the prefix of the names of the markers. By default such recordings
+    /// are refused.
+    pub subject: Option<String>,
     /// The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body.
     #[cfg_attr(feature = "schema", schemars(with = "Option<PathBuf>"))]
     pub model: Option<ModelChoice>,
@@ -111,7 +114,7 @@ pub struct Job {
     pub sensors: SensorStatements,
     /// Files of measured ground forces.
     pub forces: ForceFiles,
-    /// Force plates of which the laboratory knows the foot.
+    /// Force plates of which the laboratory knows the foot, or which signs and directions are wrong.
     #[serde(deserialize_with = "json::each")]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub plates: Vec<PlateFoot>,
@@ -202,6 +205,7 @@ impl Default for Job {
             recording: None,
             trial: None,
             standing: None,
+            subject: None,
             model: None,
             marker_set: None,
             markers: None,

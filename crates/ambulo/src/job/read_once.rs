@@ -1,7 +1,7 @@
 //! Files that several jobs have: standing trials and models, read once for the jobs that follow each other with the
 //! same one.
 
-use super::error::JobError;
+use super::error::{At, JobError};
 use super::files::Files;
 use super::laboratory::read_laboratory_file;
 use crate::findings::Findings;
@@ -17,8 +17,8 @@ const MOST: usize = 8;
 #[derive(Debug)]
 pub(super) struct ReadOnce<K, V>(Arc<Mutex<Vec<Known<K, V>>>>);
 
-/// Standing trials with the bodies that were made from them, by the path.
-pub(super) type StandingTrials = ReadOnce<PathBuf, StandingTrial>;
+/// Standing trials with the bodies that were made from them, by the path and the person.
+pub(super) type StandingTrials = ReadOnce<(PathBuf, Option<String>), StandingTrial>;
 /// Models by their files.
 pub(super) type Models = ReadOnce<ModelFiles, Model>;
 
@@ -78,13 +78,17 @@ impl<K: PartialEq, V> ReadOnce<K, V> {
 }
 
 impl StandingTrials {
-    /// The standing trial in a file.
+    /// The standing trial of a person in a file.
     pub(super) fn read(
         &self,
         path: &Path,
+        person: Option<&str>,
         files: &mut dyn Files,
         findings: &mut Findings,
     ) -> Result<Arc<StandingTrial>, JobError> {
-        self.get(path.to_owned(), findings, |own| Ok(StandingTrial::new(read_laboratory_file(path, files, own)?)))
+        self.get((path.to_owned(), person.map(str::to_owned)), findings, |own| {
+            let file = read_laboratory_file(path, files, own)?;
+            Ok(StandingTrial::new(file.of_person(person).at(path.display().to_string())?))
+        })
     }
 }

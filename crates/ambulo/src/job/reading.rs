@@ -4,7 +4,9 @@ use super::error::{Field, JobError};
 use super::files::{Files, read_table};
 use super::kind::RecordingKind;
 use super::setup::Setups;
-use super::{Job, Reading, Shared, coordinates, markers, sensors, settings, setup, skeleton, study_error, subject};
+use super::{
+    Job, Reading, Shared, coordinates, markers, sensors, settings, setup, size, skeleton, study_error, subject,
+};
 use crate::analysis::Stage;
 use crate::findings::Findings;
 use crate::study::{self, MarkerBody, Outcome, Recording, Settings, Source};
@@ -73,6 +75,7 @@ impl Job {
 
     fn source(&self, reading: &mut Reading<'_>, shared: &Shared) -> Result<Source, JobError> {
         self.check_range()?;
+        size::check(self.size)?;
         reading.read.push(self.recording().to_owned());
         let kind = RecordingKind::of(self.recording(), reading.files)?;
         self.check_kind(kind, &reading.setups)?;

@@ -3,7 +3,7 @@
 use super::error::{At, Field, JobError};
 use super::files::{Files, read as read_file};
 use super::model_file::read_document;
-use super::{Job, Reading, ground_table, size};
+use super::{Job, Reading, ground_table};
 use crate::findings::Code;
 use crate::kinematics::sensor_fit::{SensorAxes, SensorHeading};
 use crate::model::anthropometry::Build;
@@ -16,9 +16,9 @@ use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::OrientationTable;
 use std::path::Path;
 
-/// Whether a storage file contains quaternions. A file that cannot be read is none.
-pub(super) fn is_recording(path: &Path, files: &mut dyn Files) -> bool {
-    files.read(path).is_ok_and(|bytes| OrientationTable::is_stated(&bytes))
+/// Whether a storage file contains quaternions.
+pub(super) fn is_recording(path: &Path, files: &mut dyn Files) -> Result<bool, JobError> {
+    Ok(OrientationTable::is_stated(&read_file(files, path)?))
 }
 
 pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
@@ -28,7 +28,6 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
         return Err(JobError::new(&[Field::Recording], what).within(job.shown()));
     }
     reading.tracked = reading.setups.sensor_weights();
-    size::check(job.size)?;
     let moving = read_sensors(job.recording(), reading)?;
     let standing = job.standing.as_deref().map(|path| {
         reading.read.push(path.to_owned());

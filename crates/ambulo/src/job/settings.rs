@@ -38,6 +38,9 @@ pub struct Processing {
     #[serde(deserialize_with = "json::optional")]
     #[cfg_attr(feature = "schema", schemars(with = "Option<json::TextOrNumber>"))]
     pub force_cutoff: Option<ForceCutoff>,
+    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by
+    /// it; negative for forces that are early.
+    pub force_delay_s: f64,
     /// Order of one pass of the Butterworth filters.
     pub order: usize,
     /// What residual reduction may change; `None` changes nothing.
@@ -58,6 +61,7 @@ impl Default for Processing {
             filter: Filter::default(),
             cutoff: None,
             force_cutoff: None,
+            force_delay_s: 0.0,
             order: Settings::LOW_PASS.order,
             residual_reduction: None,
             fit: None,
@@ -121,6 +125,7 @@ pub(super) fn read(job: &Job, tracked: Option<TrackedTasks>, files: &mut dyn Fil
         smoother: own.smoother(),
         force_filter: of_forces
             .map_or(settings.force_filter, |asked| asked.map_or(ForceFilter::Off, ForceFilter::LowPass)),
+        force_delay_s: own.force_delay_s,
         comparison_filter: of_forces.unwrap_or(settings.comparison_filter),
         window: own.window,
         rate_hz: own.rate_hz,

@@ -1,4 +1,4 @@
-//! The stated size of a person whose model is given.
+//! The stated size of a person.
 
 use super::error::{Field, JobError};
 use crate::study::StatedSize;

@@ -10,7 +10,6 @@ use crate::motion::{SmplBody, SmplError, SmplMotion};
 use crate::study::{Recording, Source};
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::npz::Npz;
-use std::path::Path;
 
 pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
     let shown = job.shown();
@@ -26,7 +25,10 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
 pub(super) fn read_smpl(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobError> {
     let shown = job.shown();
     let mass_kg = mass(job, "a motion of the SMPL family")?;
-    let npz = read_npz(job.recording(), reading)?;
+    let bytes = read_file(reading.files, job.recording())?;
+    SmplMotion::check_shapes(&Npz::shapes(&bytes).at(shown.clone())?).at(shown.clone())?;
+    let npz = Npz::read_named(&bytes, SmplMotion::is_array).at(shown.clone())?;
+    drop(bytes);
     let motion = SmplMotion::from_npz(&npz).at(shown.clone())?;
     drop(npz);
     (reading.progress)("read_skeleton");
@@ -43,7 +45,7 @@ fn smpl_body(job: &Job, motion: &SmplMotion, mass_kg: f64, reading: &mut Reading
         return height.and_then(|height| SmplBody::of_stature(&build(height))).in_file(job.recording());
     };
     reading.read.push(path.clone());
-    let npz = read_npz(path, reading)?;
+    let npz = Npz::read_named(&read_file(reading.files, path)?, SmplBody::is_array).in_file(path)?;
     // Of the table only the shape of the foot is used, which does not depend on the stature.
     let sizes = build(job.size.height_m.unwrap_or(ANY_STATURE_M)).human().in_file(path)?.dimensions;
     SmplBody::of_model(&npz, &motion.betas, &sizes).in_file(path)
@@ -51,10 +53,6 @@ fn smpl_body(job: &Job, motion: &SmplMotion, mass_kg: f64, reading: &mut Reading
 
 /// A stature for proportions [m].
 const ANY_STATURE_M: f64 = 1.7;
-
-fn read_npz(path: &Path, reading: &mut Reading<'_>) -> Result<Npz, JobError> {
-    Npz::read(&read_file(reading.files, path)?).in_file(path)
-}
 
 /// The mass, which the file does not hold.
 fn mass(job: &Job, what: &str) -> Result<f64, JobError> {

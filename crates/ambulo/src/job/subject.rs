@@ -3,12 +3,16 @@
 
 use super::error::{At, Field, JobError};
 use super::files::Files;
-use super::{Job, Reading, markers, size};
+use super::{Job, Reading, markers};
 use crate::motion::B3dTrial;
 use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};
 use std::path::Path;
 
+/// What the file should be.
+const NAME: &str = "a subject of AddBiomechanics (.b3d)";
+/// Bytes that show what another file is.
+const CONTENT_BYTES: usize = 4096;
 /// Most trials that a message lists.
 const LISTED: usize = 8;
 
@@ -45,7 +49,11 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
 /// A file that cannot be read, or is no `.b3d`.
 pub fn read_header(files: &mut dyn Files, path: &Path) -> Result<Header, JobError> {
     let mut start = |count: usize| files.read_part(path, 0..count).map_err(JobError::of_file);
-    let length = Header::length(&start(LENGTH_BYTES)?).in_file(path)?;
+    let length = Header::length(&start(LENGTH_BYTES)?);
+    let length = match length {
+        Err(error) => return Err(error.or_other_content(&start(CONTENT_BYTES)?, NAME)).in_file(path),
+        Ok(length) => length,
+    };
     Header::read(&start(length)?).in_file(path)
 }
 
@@ -102,6 +110,6 @@ fn check(job: &Job) -> Result<(), JobError> {
             );
             Err(JobError::new(&[field, Field::Model], what).within(job.shown()))
         }
-        None => size::check(job.size),
+        None => Ok(()),
     }
 }

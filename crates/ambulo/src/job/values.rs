@@ -2,7 +2,7 @@
 
 use crate::model::Side;
 use crate::spatial::Vec3;
-use crate::study::AddedMass;
+use crate::study::{AddedMass, PlateUse};
 use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -165,34 +165,52 @@ impl FromStr for FootColumns {
     }
 }
 
-/// Which foot is on a force plate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is known of a force plate: which foot is on it, and what is wrong with its signs and directions.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlateFoot {
     /// The plate, counted from 1.
     pub plate: usize,
-    /// The foot; `None` ignores the plate.
-    pub side: Option<Side>,
+    /// In the order in which they are applied.
+    pub(super) uses: Vec<PlateUse>,
 }
 
 impl fmt::Display for PlateFoot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}", self.plate, self.side.map_or("off", Side::letter))
+        let word = |used: &PlateUse| match used {
+            PlateUse::Foot(side) => side.letter().to_owned(),
+            PlateUse::Off => "off".to_owned(),
+            PlateUse::Flip(axis) => format!("flip-{}", ["x", "y"][usize::from(*axis > 0)]),
+            PlateUse::Turn(quarters) => format!("turn-{}", 90 * quarters),
+        };
+        write!(f, "{}={}", self.plate, self.uses.iter().map(word).collect::<Vec<_>>().join("+"))
     }
+}
+
+/// One word about a plate.
+fn plate_use(word: &str) -> Option<PlateUse> {
+    Some(match word.trim().to_ascii_lowercase().as_str() {
+        "r" | "right" => PlateUse::Foot(Side::Right),
+        "l" | "left" => PlateUse::Foot(Side::Left),
+        "off" => PlateUse::Off,
+        "flip-x" => PlateUse::Flip(0),
+        "flip-y" => PlateUse::Flip(1),
+        "turn-90" => PlateUse::Turn(1),
+        "turn-180" => PlateUse::Turn(2),
+        "turn-270" => PlateUse::Turn(3),
+        _ => return None,
+    })
 }
 
 impl FromStr for PlateFoot {
     type Err = String;
     fn from_str(text: &str) -> Result<PlateFoot, String> {
-        let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot";
-        let (plate, foot) = text.split_once('=').ok_or(expected)?;
-        let side = match foot.trim().to_ascii_lowercase().as_str() {
-            "r" | "right" => Some(Side::Right),
-            "l" | "left" => Some(Side::Left),
-            "off" => None,
-            _ => return Err(expected.into()),
-        };
+        let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot; \
+            flip-x, flip-y, turn-90, turn-180 and turn-270 correct signs and directions, also together as in \
+            1=r+flip-y";
+        let (plate, words) = text.split_once('=').ok_or(expected)?;
+        let uses = words.split('+').map(plate_use).collect::<Option<Vec<_>>>().ok_or(expected)?;
         match plate.trim().parse() {
-            Ok(plate @ 1..) => Ok(PlateFoot { plate, side }),
+            Ok(plate @ 1..) => Ok(PlateFoot { plate, uses }),
             _ => Err(expected.into()),
         }
     }

@@ -14,6 +14,19 @@ use crate::optimal::TrackError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
+    /// Samples too far apart, or too close, for the recording of a movement.
+    #[error(
+        "the samples are {step_s} s apart; expected the recording of a movement, with 2.5 to 20000 samples per second. \
+         hint: {step_s} looks like {looks_like}; write {seconds:.7} s in the file"
+    )]
+    Clock {
+        /// Median time between samples [s].
+        step_s: f64,
+        /// What the number looks like.
+        looks_like: &'static str,
+        /// The time between samples that is probably meant [s].
+        seconds: f64,
+    },
     /// Markers that give no body in motion.
     #[error(transparent)]
     Markers(MarkerTrialError),
@@ -101,7 +114,8 @@ impl StudyError {
             | StudyError::ForceTable(_)
             | StudyError::ForceColumns { .. } => Some(Input::Forces),
             StudyError::Device(_) => Some(Input::Device),
-            StudyError::Markers(_)
+            StudyError::Clock { .. }
+            | StudyError::Markers(_)
             | StudyError::Skeleton(_)
             | StudyError::Sensors(_)
             | StudyError::Analysis(_)
@@ -124,6 +138,8 @@ fn is_about_calibration(error: &MarkerTrialError) -> bool {
         MarkerTrialError::Calibration(CalibrationError::Build(_))
         | MarkerTrialError::Poses(_)
         | MarkerTrialError::PosesForModel { .. }
+        | MarkerTrialError::SeveralPeople { .. }
+        | MarkerTrialError::NoSuchPerson { .. }
         | MarkerTrialError::Fit(_)
         | MarkerTrialError::Stopped(_) => false,
         MarkerTrialError::Names(_) | MarkerTrialError::Calibration(_) | MarkerTrialError::Scaling(_) => true,

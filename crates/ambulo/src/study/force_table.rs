@@ -3,6 +3,7 @@
 use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns, with_axis_last};
 use super::source::ForceTable;
+use super::table_axes;
 use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::{FootPaths, LoadedSpan};
 use crate::kinematics::Trajectory;
@@ -21,6 +22,8 @@ pub(super) struct TableForces {
     pub(super) unassigned: Vec<[f64; 2]>,
     /// How long loads carried something, all together [s].
     pub(super) loaded_s: f64,
+    /// Whether the table is in body weights, so that it does not weigh the person.
+    pub(super) is_relative: bool,
 }
 
 /// The body on whose feet the forces act, in its motion.
@@ -32,6 +35,8 @@ pub(super) struct Walker<'a> {
     pub(super) window: Window,
     /// From the axes of the markers to those of the world.
     pub(super) world_from_lab: Option<&'a Mat3>,
+    /// By how much the forces were recorded late [s].
+    pub(super) delay_s: f64,
 }
 
 impl Walker<'_> {
@@ -43,9 +48,9 @@ impl Walker<'_> {
     ) -> Result<TableForces, StudyError> {
         let paths = self.foot_paths();
         if let Some(stated) = loads {
-            let forces = self.read(stated, table, findings)?;
+            let (forces, is_relative) = self.read(stated, table, paths.as_ref(), findings)?;
             self.report_other_feet(&forces, paths.as_ref(), findings);
-            return Ok(TableForces { forces, ..TableForces::default() });
+            return Ok(TableForces { forces, is_relative, ..TableForces::default() });
         }
         let renamed = with_axis_last(table);
         let (stated, table) = (table, renamed.as_ref().unwrap_or(table));
@@ -56,23 +61,30 @@ impl Walker<'_> {
         let of = |load: &LoadColumns| load.on_body(name(feet[load.side.unwrap_or(Side::Right)]));
         let recognised =
             ExternalLoads { name: "feet".into(), datafile: None, forces: columns.iter().map(of).collect() };
-        let forces = self.read(&recognised, table, findings)?;
+        let (forces, is_relative) = self.read(&recognised, table, paths.as_ref(), findings)?;
         let found = self.on_feet(forces, &columns, paths.as_ref(), findings).ok_or_else(unknown)?;
         self.report_other_feet(&found.forces, paths.as_ref(), findings);
-        Ok(found)
+        Ok(TableForces { is_relative, ..found })
     }
 
+    /// The forces in world axes and in newtons, and whether the table has them in body weights.
     fn read(
         &self,
         loads: &ExternalLoads,
         table: &Table,
+        paths: Option<&FootPaths>,
         findings: &mut Findings,
-    ) -> Result<Vec<ForceRecording>, StudyError> {
+    ) -> Result<(Vec<ForceRecording>, bool), StudyError> {
         let mut forces = force_recordings(self.model, loads, table, findings).map_err(StudyError::ForceTable)?;
-        if let Some(world_from_lab) = self.world_from_lab {
-            turn_to_world(&mut forces, world_from_lab, findings);
+        if self.delay_s.abs() > 0.0 {
+            forces.iter_mut().flat_map(|force| &mut force.times).for_each(|time| *time -= self.delay_s);
         }
-        Ok(forces)
+        let weight_n = self.model.mass() * self.model.gravity().norm();
+        let is_relative = match self.model.up() == Vec3::y() && forces.iter().all(is_in_world) {
+            true => table_axes::in_world(&mut forces, self.world_from_lab, weight_n, paths, findings),
+            false => false,
+        };
+        Ok((forces, is_relative))
     }
 
     /// Loads of a side that their names state, or else under the foot that is nearest to the centre of pressure. `None`
@@ -148,6 +160,11 @@ impl Walker<'_> {
     }
 }
 
+/// Whether a load is not in the axes of a body.
+fn is_in_world(force: &ForceRecording) -> bool {
+    force.force_frame.is_none() && force.point_frame.is_none()
+}
+
 fn ordinal(index: usize) -> String {
     const WORDS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
     WORDS.get(index).map_or_else(|| format!("{}th", index + 1), ToString::to_string)
@@ -209,22 +226,4 @@ fn report_other_heights(load: &LoadColumns, spans: &[LoadedSpan], findings: &mut
         and_more_times(found.len())
     );
     findings.report(Code::LoadsOtherHeight, message);
-}
-
-/// Brings forces of a table to the axes of the world: from those of the markers, or not at all where they are upright
-/// as they are.
-fn turn_to_world(plates: &mut [ForceRecording], world_from_lab: &Mat3, findings: &mut Findings) {
-    /// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and
-    /// sideways.
-    const UPRIGHT: f64 = 0.9;
-    let sum: Vec3 = plates.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
-    let is_upright = |sum: &Vec3| sum.y > UPRIGHT * sum.norm();
-    if is_upright(&sum) && !is_upright(&(world_from_lab * sum)) {
-        findings.report(
-            Code::LoadsWorldAxes,
-            "the forces of the table are not in the axes of the markers; they are taken as x forward, y up, z right",
-        );
-        return;
-    }
-    plates.iter_mut().for_each(|plate| plate.rotate(world_from_lab));
 }

@@ -6,7 +6,7 @@
 //! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 
 use super::force_table::TableForces;
-use super::source::{MarkerSource, PlateUse};
+use super::source::{MarkerSource, PlateAssignment, PlateUse};
 use crate::analysis::BodyInMotion;
 use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
@@ -27,6 +27,8 @@ pub(super) struct IdleForces {
     silent: Vec<String>,
     /// Of the stances on plates, the share without a load.
     silent_share: f64,
+    /// Whether the forces were in body weights: they do not weigh the person.
+    pub(super) is_relative: bool,
 }
 
 impl IdleForces {
@@ -37,6 +39,7 @@ impl IdleForces {
             unassigned: found.unassigned.clone(),
             unassigned_share: share(unassigned_s, found.loaded_s),
             silent_share: if is_silent { 1.0 } else { 0.0 },
+            is_relative: found.is_relative,
             silent: if is_silent { vec!["the force table".to_owned()] } else { Vec::new() },
         }
     }
@@ -56,6 +59,7 @@ impl IdleForces {
             unassigned,
             unassigned_share: share(unassigned_s, loaded_s),
             silent_share: share(silent.len() as f64, (silent.len() + contacts.len()) as f64),
+            is_relative: false,
             silent,
         }
     }
@@ -103,7 +107,10 @@ pub(super) fn is_loaded(force: &ForceRecording) -> bool {
 
 /// The places of stances on plates without a load; plates that the user switched off are left out.
 fn silent_stances(body: &BodyInMotion, markers: &MarkerSource) -> Vec<String> {
-    let is_off = |plate: usize| markers.plates.iter().any(|known| known.plate == plate && known.used == PlateUse::Off);
+    let is_off = |plate: usize| {
+        let is_it = |known: &&PlateAssignment| markers.plate_at(known.plate) == Some(plate);
+        markers.plates.iter().filter(is_it).any(|known| known.used == PlateUse::Off)
+    };
     let place = |SilentStance { plate, side, span: [from, to] }: &SilentStance| {
         format!("{} under the {side} foot, {from:.3}-{to:.3} s", body.plates[*plate].name)
     };

@@ -1,6 +1,6 @@
 //! One file of a laboratory: markers, force plates, events, and statements about the person.
 
-use crate::analysis::LaboratoryRecording;
+use crate::analysis::{LaboratoryRecording, MarkerTrialError, identity};
 use crate::findings::{Code, Finding, Findings};
 use crate::motion::force_plate::{PlateError, PlateSettings, plates_from_c3d};
 use crate::motion::{
@@ -24,6 +24,8 @@ pub struct LaboratoryFile {
     pub events: Vec<Event>,
     /// Statements of the file about the person.
     pub subject: SubjectParameters,
+    /// The number of force plates that the file states; some may be left out of the recording.
+    pub stated_plates: usize,
 }
 
 /// Why a file of a laboratory cannot be used.
@@ -72,6 +74,26 @@ impl LaboratoryFile {
         !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
     }
 
+    /// The markers of one person of several in the file, by the prefix of their names; the file as it is for `None`,
+    /// and if it is of one person who has this name or none.
+    ///
+    /// # Errors
+    /// A name that no person of the file has.
+    pub fn of_person(mut self, name: Option<&str>) -> Result<LaboratoryFile, MarkerTrialError> {
+        let Some(name) = name else { return Ok(self) };
+        if identity::people_in(&self.recording.markers).len() > 1 {
+            self.recording.markers = identity::person_in(self.recording.markers, name)?;
+            self.subject.name = Some(name.to_owned());
+            return Ok(self);
+        }
+        match &self.subject.name {
+            Some(own) if !own.trim().eq_ignore_ascii_case(name.trim()) => {
+                Err(MarkerTrialError::NoSuchPerson { found: name.to_owned(), people: vec![own.clone()] })
+            }
+            _ => Ok(self),
+        }
+    }
+
     /// From the bytes of a C3D; `label` names the file in findings. Bytes that are not borrowed are dropped as soon as
     /// they are decoded, and points that are no markers are not decoded.
     ///
@@ -90,7 +112,12 @@ impl LaboratoryFile {
         }
         let mut recording = LaboratoryFile::recording_of_c3d(&c3d, findings)?;
         recording.markers.name = label.to_owned();
-        Ok(LaboratoryFile { recording, events: events_from_c3d(&c3d, findings), subject: subject_from_c3d(&c3d) })
+        Ok(LaboratoryFile {
+            recording,
+            events: events_from_c3d(&c3d, findings),
+            subject: subject_from_c3d(&c3d),
+            stated_plates: c3d.each_platform().len(),
+        })
     }
 
     /// Markers, or poses of segments, and force plates of a C3D.
@@ -126,6 +153,7 @@ impl LaboratoryFile {
             recording: LaboratoryRecording { markers, poses: None, plates: Vec::new(), unit: "m".to_owned() },
             events: Vec::new(),
             subject: SubjectParameters::default(),
+            stated_plates: 0,
         }
     }
 
@@ -148,7 +176,8 @@ impl LaboratoryFile {
         findings.report(Code::PosesUsed, message);
         let markers = poses.points(label);
         let recording = LaboratoryRecording { markers, poses: Some(poses), plates: Vec::new(), unit: "m".to_owned() };
-        Ok(LaboratoryFile { recording, events: events_from_mvnx(&mvnx), subject: SubjectParameters::default() })
+        let (events, subject) = (events_from_mvnx(&mvnx), SubjectParameters::default());
+        Ok(LaboratoryFile { recording, events, subject, stated_plates: 0 })
     }
 
     /// From the bytes of a TRC; `label` names the file in findings.
@@ -160,8 +189,10 @@ impl LaboratoryFile {
         label: &str,
         findings: &mut Findings,
     ) -> Result<LaboratoryFile, LaboratoryFileError> {
-        let (trc, remarks) = Trc::read(bytes.as_ref())?;
+        let (mut trc, remarks) = Trc::read(bytes.as_ref())?;
         drop(bytes);
+        // Errors name the file, not the path in its first line.
+        trc.name.clear();
         report_remarks(label, &remarks, findings);
         let mut markers = markers_from_trc(&trc, findings)?;
         markers.name = label.to_owned();
@@ -174,6 +205,7 @@ impl LaboratoryFile {
             },
             events: Vec::new(),
             subject: SubjectParameters::default(),
+            stated_plates: 0,
         })
     }
 }

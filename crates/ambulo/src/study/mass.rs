@@ -227,6 +227,26 @@ impl BodyMass {
         BodyMass { state, kg: model_kg, source, normalised_by, plates_kg, plates_error_kg, sources }
     }
 
+    /// The mass that replaces the model's own [kg]: what the force plates carry, if it is not the mass of the model.
+    ///
+    /// A standing trial counts unless the motion agrees with the model instead. The motion alone must have been weighed
+    /// over whole gait cycles, and twice if it is lighter than the model: a load that rests next to the plates makes a
+    /// person too light on them, while nothing makes one too heavy but a load that is carried.
+    pub(super) fn in_place_of_the_models(&self) -> Option<f64> {
+        if self.source != MassWitness::Model {
+            return None;
+        }
+        let own = MassEstimate { by: self.source, kg: self.kg, error_kg: 0.0, times: 1, time_s: None };
+        let moving = self.in_motion();
+        if let Some(standing) = self.by(MassWitness::Standing) {
+            let is_denied = moving.as_ref().is_some_and(|moving| moving.agrees(&own) || !moving.agrees(standing));
+            return (!standing.agrees(&own) && !is_denied).then_some(standing.kg);
+        }
+        let least = if moving.as_ref()?.kg < self.kg { 2 } else { 1 };
+        let is_whole = self.by(MassWitness::Cycles).is_some_and(|cycles| cycles.times >= least && !cycles.agrees(&own));
+        moving.filter(|moving| is_whole && !moving.agrees(&own)).map(|moving| moving.kg)
+    }
+
     /// After residual reduction, which may have changed the mass of the body.
     pub(super) fn after_reduction(self, model_kg: f64) -> BodyMass {
         BodyMass { kg: model_kg, ..self }

@@ -27,9 +27,11 @@ use crate::kinematics::sensor_fit::{SensorTrial, fit_sensors};
 use crate::model::anthropometry::Build;
 use crate::model::full_body::full_body;
 use crate::model::{Model, Side};
+use crate::motion::force_plate::{ForceUnit, PlateRecording, stepped_weight};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, SubjectParameters, Window, smooth};
-use crate::spatial::Vec3;
+use crate::numerics::median;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
 
@@ -41,13 +43,18 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
+    /// Whether the forces are those of the force plates of the recording.
+    pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
     pub(super) device: Option<Table>,
+    /// Whether the mass is that of a given model alone: none is stated, and no load was added.
+    pub(super) has_models_mass: bool,
 }
 
 /// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+#[derive(Clone)]
 pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.
     Recorded(Motion),
@@ -97,6 +104,27 @@ impl Observation {
         }
         let body = self.origin.followed().map(|followed| &followed.body);
         Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
+    }
+
+    /// Whether a mass that force plates measure replaces that of the model.
+    pub(super) fn takes_weighed_mass(&self) -> bool {
+        self.has_models_mass && (!self.forces.is_empty() || self.known_mass.standing.is_some())
+    }
+
+    /// Scales the masses of the model to a weighed body mass [kg].
+    pub(super) fn scale_to(&mut self, kg: f64, findings: &mut Findings) -> Result<(), StudyError> {
+        let own_kg = self.model.mass();
+        let factors = vec![Vec3::repeat(1.0); self.model.bodies().len()];
+        self.model = self.model.scaled(&factors, Some(kg)).map_err(StudyError::Size)?;
+        self.person.mass_kg *= kg / own_kg;
+        let message = format!(
+            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and \
+             inertias of \
+             the model were multiplied by {:.3}",
+            kg / own_kg
+        );
+        findings.report(Code::MassReplaced, message);
+        Ok(())
     }
 
     /// Whether forces are predicted: if that is wanted, or if no forces were measured.
@@ -150,7 +178,9 @@ impl Source {
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
         let Source { recording, forces, device, added_mass, stated } = self;
-        let statements = Statements { forces, device, added_mass, stated };
+        let statements =
+            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated };
+        let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
         match recording {
             Recording::Coordinates { model, motion } => {
                 statements.observe_coordinates(&model, motion, settings, findings)
@@ -180,9 +210,11 @@ impl Statements {
             person,
             forces: loads,
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Simulation { rule },
             known_mass,
             device: self.device,
+            has_models_mass: false,
         };
         Ok((observation, ObservedMotion::Complete(trajectory)))
     }
@@ -254,12 +286,17 @@ impl Statements {
                     soles: &person.soles,
                     window: settings.window,
                     world_from_lab: None,
+                    delay_s: settings.force_delay_s,
                 };
                 carrying(walker.forces_of_table(&table, findings)?, findings)
             }
         };
         let known_mass = KnownMass::stated(self.stated.mass_kg);
-        let observation = Observation { person, model, forces, idle, origin, known_mass, device: self.device };
+        let has_models_mass =
+            matches!(origin, Origin::Coordinates) && self.stated.mass_kg.is_none() && self.added_mass.is_empty();
+        let (device, is_from_plates) = (self.device, false);
+        let observation =
+            Observation { person, model, forces, idle, origin, is_from_plates, known_mass, device, has_models_mass };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
 
@@ -283,6 +320,7 @@ impl Statements {
             model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
+            is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
                 fit: Box::new(body.fit),
@@ -290,6 +328,7 @@ impl Statements {
             })),
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,
+            has_models_mass: false,
         };
         Ok((observation, ObservedMotion::Recorded(motion)))
     }
@@ -302,6 +341,7 @@ impl Statements {
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
         let known = KnownMass::of_markers(&markers);
+        let markers = markers.with_plates_in_newtons(&known, findings);
         let markers = self.with_known_mass(markers, &known, settings, findings)?;
         let mut body = self.follow(&markers, settings, findings, progress)?;
         body.subject.model = self.loaded(body.subject.model)?;
@@ -311,11 +351,14 @@ impl Statements {
             idle.report(findings);
         }
         let motion = body.fit.motion.clone();
+        let is_model = matches!(markers.body, MarkerBody::Model { .. });
         let observation = Observation {
+            has_models_mass: is_model && known.stated.is_none() && self.added_mass.is_empty(),
             model: body.subject.model.clone(),
             person: body.subject.person.clone(),
             forces,
             idle,
+            is_from_plates: matches!(self.forces, MeasuredForces::InRecording),
             known_mass: known,
             origin: Origin::Markers(Box::new(Followed {
                 body,
@@ -345,6 +388,7 @@ impl Statements {
                     soles: &body.subject.person.soles,
                     window: whole.map_or(settings.window, |[from, to]| Window { from_s: Some(from), to_s: Some(to) }),
                     world_from_lab: Some(&body.laboratory.world_from_lab),
+                    delay_s: settings.force_delay_s,
                 };
                 Ok(carrying(walker.forces_of_table(table, findings)?, findings))
             }
@@ -380,7 +424,10 @@ impl Statements {
     fn weighed_before(&self, markers: &MarkerSource, settings: &Settings) -> Result<Vec<MassEstimate>, StudyError> {
         let ignored = &mut Findings::default();
         let body = self.follow(markers, settings, ignored, &mut Progress::default())?;
-        let (forces, _) = self.forces_under(&body, settings, ignored)?;
+        let (forces, idle) = self.forces_under(&body, settings, ignored)?;
+        if idle.is_relative {
+            return Ok(Vec::new());
+        }
         let model = &body.subject.model;
         let whole = body
             .longest_without_gap_s()
@@ -399,7 +446,7 @@ impl Statements {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<BodyInMotion, StudyError> {
-        let trial = markers.without_plates_switched_off()?;
+        let trial = markers.with_stated_plates()?;
         let (person, model);
         let body = match &markers.body {
             MarkerBody::Model { model: given, mass_kg, protocol } => {
@@ -419,10 +466,13 @@ impl Statements {
         };
         let of_foot = |used: PlateUse| match used {
             PlateUse::Foot(side) => Some(side),
-            PlateUse::Off => None,
+            PlateUse::Off | PlateUse::Flip(_) | PlateUse::Turn(_) => None,
         };
-        let plate_feet: Vec<(usize, Side)> =
-            markers.plates.iter().filter_map(|known| Some((known.plate, of_foot(known.used)?))).collect();
+        let plate_feet: Vec<(usize, Side)> = markers
+            .plates
+            .iter()
+            .filter_map(|known| Some((markers.plate_at(known.plate)?, of_foot(known.used)?)))
+            .collect();
         let standing = markers.standing.as_deref();
         if let Some(standing) = standing {
             report_other_person(&markers.trial.subject, &standing.subject, findings);
@@ -467,21 +517,62 @@ impl MarkerSource {
         self
     }
 
-    /// The trial without what switched-off plates measured. Plates that are named must exist.
-    fn without_plates_switched_off(&self) -> Result<Cow<'_, LaboratoryRecording>, StudyError> {
+    /// The place among the plates that were read of a plate of the file, counted from 0; `None` if it was left out.
+    pub(super) fn plate_at(&self, plate: usize) -> Option<usize> {
+        let plates = &self.trial.recording.plates;
+        let name = format!("plate {}", plate + 1);
+        let is_numbered = plates.iter().any(|plate| plate.name.starts_with("plate "));
+        let by_name = plates.iter().position(|plate| plate.name == name);
+        if is_numbered { by_name } else { (plate < plates.len()).then_some(plate) }
+    }
+
+    /// The trial as the laboratory states its plates: without what switched-off ones measured, with corrected signs and
+    /// directions. Plates that are named must exist; one that was left out anyway may be switched off.
+    fn with_stated_plates(&self) -> Result<Cow<'_, LaboratoryRecording>, StudyError> {
         let mut recording = Cow::Borrowed(&self.trial.recording);
         for PlateAssignment { plate, used } in &self.plates {
-            let count = recording.plates.len();
-            if *plate >= count {
-                return Err(StudyError::NoSuchPlate { plate: *plate, count });
-            }
-            if *used == PlateUse::Off {
-                let off = &mut recording.to_mut().plates[*plate];
-                off.force.fill(Vec3::zeros());
-                off.moment.fill(Vec3::zeros());
-            }
+            let Some(place) = self.plate_at(*plate) else {
+                if *used == PlateUse::Off && *plate < self.trial.stated_plates {
+                    continue;
+                }
+                return Err(StudyError::NoSuchPlate { plate: *plate, count: recording.plates.len() });
+            };
+            let stated = &recording.plates[place];
+            let read = match used {
+                PlateUse::Foot(_) => continue,
+                PlateUse::Off => stated.unloaded(),
+                PlateUse::Flip(axis) => stated.flipped(*axis),
+                PlateUse::Turn(quarters) => stated.turned(*quarters),
+            };
+            recording.to_mut().plates[place] = read;
         }
         Ok(recording)
+    }
+
+    /// The markers with plates in the unit that a stated or standing mass shows, where the unit of the file cannot be
+    /// right.
+    fn with_plates_in_newtons(mut self, known: &KnownMass, findings: &mut Findings) -> MarkerSource {
+        let weight_n = known.stated.as_ref().or(known.standing.as_ref()).map(|mass| mass.kg * STANDARD_GRAVITY);
+        let plates = &mut self.trial.recording.plates;
+        let assumed = plates.first().and_then(|plate| plate.assumed_units);
+        let Some(([assumed_n, _], weight_n)) = assumed.zip(weight_n) else { return self };
+        let vertical = |plate: &PlateRecording| (0..plate.times.len()).map(|i| plate.vertical(i)).collect::<Vec<_>>();
+        let stepped = median(plates.iter().filter_map(|plate| stepped_weight(&plate.times, &vertical(plate))));
+        let unit = stepped.and_then(|stepped| ForceUnit::of_steps(stepped / assumed_n, Some(weight_n)));
+        let Some((unit, newtons)) = unit.and_then(|unit| Some((unit, unit.newtons(Some(weight_n))?))) else {
+            return self;
+        };
+        if (newtons / assumed_n - 1.0).abs() > 1e-9 {
+            plates.iter_mut().for_each(|plate| *plate = plate.with_unit(newtons / assumed_n));
+            let message = format!(
+                "with the known mass, the forces of the plates are in {} (a step weighs {:.0} N); they were read so",
+                unit.name(),
+                stepped.unwrap_or(f64::NAN) * newtons / assumed_n
+            );
+            findings.withdraw(Code::PlatesUnitByWeight, |_| true);
+            findings.report(Code::PlatesUnitByWeight, message);
+        }
+        self
     }
 
     /// Measurements of the person, for the built-in body.

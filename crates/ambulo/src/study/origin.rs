@@ -9,6 +9,11 @@ use crate::kinematics::marker_fit::MarkerFit;
 pub enum ForceOrigin {
     /// Force plates or other sensors.
     Measured,
+    /// Force plates or other sensors; the motion where a foot was not on them.
+    Mixed {
+        /// How double support was resolved.
+        rule: &'static str,
+    },
     /// The motion itself.
     Predicted {
         /// How double support was resolved.

@@ -11,7 +11,8 @@ use crate::analysis::{
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
-use crate::model::Model;
+use crate::ground::stances::{Stance, StanceSource};
+use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
 
@@ -31,6 +32,9 @@ pub struct Outcome {
     pub times_and_distances: TimesAndDistances,
     /// Where the ground forces come from.
     pub force_origin: ForceOrigin,
+    /// By how much the measured forces are late against the motion [s], negative if they are early; `None` where no
+    /// delay was found.
+    pub force_delay_s: Option<f64>,
     /// The prediction, with its checks and its comparison with measured forces; `None` where forces were measured or
     /// are none.
     pub prediction: Option<PredictedGround>,
@@ -42,10 +46,17 @@ pub struct Outcome {
     pub residual_reduction: Option<ReducedMotion>,
     /// Generalised forces of a worn device on the frames of the motion, one column per coordinate [N.m or N].
     pub device: Option<Vec<Vec<f64>>>,
+    /// Coordinates of pelvis and legs that nothing recorded determines: held at one value, or on a limit in more than a
+    /// tenth of the frames. Their angles and powers are no results.
+    pub not_measured: Vec<CoordinateId>,
     /// Whether the recording, the body and the forces fit together: about the data.
     pub quality: Quality,
     /// Whether a person could do this: about the movement.
     pub verdict: Verdict,
+    /// The stances of both feet with the source of their loads, in order of time; empty for a simulated motion.
+    pub stances: Vec<Stance>,
+    /// The analysis with predicted forces where a loaded foot was not measured: [`Outcome::complete`] chooses.
+    pub(super) completed: Option<Analysis>,
     /// Filters and time range that were used.
     pub processing: Processing,
     /// Checksum of the name of the person in the file of the recording, if it has one.
@@ -112,6 +123,42 @@ impl PredictedGround {
 }
 
 impl Outcome {
+    /// The analysis that tables and figures show: that of the measured forces, with predicted ones in the stances that
+    /// were not measured. Events, cycles, mass and residual are those of [`Outcome::analysis`].
+    #[must_use]
+    pub fn complete(&self) -> &Analysis {
+        self.completed.as_ref().unwrap_or(&self.analysis)
+    }
+
+    /// Of the time in which a leg was loaded, the share in which its load was measured; `None` if no force was
+    /// measured, or if the leg was never loaded.
+    #[must_use]
+    pub fn measured_share(&self, side: Side) -> Option<f64> {
+        let is_measured = matches!(self.force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. });
+        let loaded_s = |of: fn(&StanceSource) -> bool| -> f64 {
+            let own = self.stances.iter().filter(|stance| stance.side == side && of(&stance.source));
+            own.map(|stance| stance.end_s - stance.start_s).fold(0.0, |sum, duration_s| sum + duration_s)
+        };
+        let all_s = loaded_s(|_| true);
+        (is_measured && all_s > 0.0).then(|| loaded_s(StanceSource::is_measured) / all_s)
+    }
+
+    /// For each frame the source of the load of a foot, as [`StanceSource::number`]; a foot in the air is measured.
+    /// `None` if all loads of the motion were measured, or none.
+    #[must_use]
+    pub fn load_sources(&self) -> Option<BySide<Vec<f64>>> {
+        let others: Vec<&Stance> = self.stances.iter().filter(|stance| !stance.source.is_measured()).collect();
+        let is_mixed = matches!(self.force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. });
+        let grid = self.analysis.trajectory.grid();
+        let at = |side: Side, time_s: f64| {
+            let own = others.iter().filter(|stance| stance.side == side);
+            let now = own.filter(|stance| (stance.start_s..=stance.end_s).contains(&time_s));
+            now.map(|stance| stance.source.number()).fold(0.0, f64::max)
+        };
+        let of_side = |side: Side| (0..grid.frames).map(|frame| at(side, grid.time(frame))).collect();
+        (is_mixed && !others.is_empty()).then(|| BySide::from_fn(of_side))
+    }
+
     /// How prediction and measured forces agree on what a coverage names, such as a part of the stances; `None` without
     /// measured forces, or if the coverage is empty.
     #[must_use]

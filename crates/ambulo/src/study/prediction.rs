@@ -1,6 +1,7 @@
 //! Ground forces from the motion alone, and their comparison with measured ones.
 
 use super::events::with_events_of_markers;
+use super::measured::StanceLoads;
 use super::observation::{Followed, Observation, Origin};
 use super::outcome::PredictedGround;
 use super::settings::Settings;
@@ -21,6 +22,10 @@ pub(super) struct Found {
     pub(super) prediction: Option<PredictedGround>,
     /// Foot strikes and foot offs that plates measured.
     pub(super) measured_events: Vec<Event>,
+    /// The stances of measured forces.
+    pub(super) loads: Option<StanceLoads>,
+    /// With the time in which nothing is missing.
+    pub(super) processing: analysis::AnalysisSettings,
 }
 
 /// Predicts the ground forces, weighs the body, checks the prediction and compares it with the plates.
@@ -78,7 +83,7 @@ pub(super) fn predicted(
     report_weak_evidence(origin, recorded_s, findings);
     let PredictedAnalysis { analysis, prediction, measured } = predicted;
     let prediction = PredictedGround { prediction, checks, measured, coverage, agreement, tracked: None };
-    Ok(Found { analysis, prediction: Some(prediction), measured_events })
+    Ok(Found { analysis, prediction: Some(prediction), measured_events, loads: None, processing })
 }
 
 /// A calibration of the person that was applied to a prediction.

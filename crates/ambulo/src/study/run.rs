@@ -1,29 +1,34 @@
 //! The road from a recording to forces.
 
 use super::error::StudyError;
+use super::force_directions::ForceDirections;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
+use super::measured::{Measured, StanceLoads, measured};
+use super::not_measured::not_measured;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m};
+use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m, rms_of_parts_m};
 use super::refit::refitted;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
+use super::timing::{PlateTiming, Tempo};
 use super::tracked::tracked;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
-    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, analyse_measured,
-    analyse_with_progress, reduce_residual, times_and_distances,
+    self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, TimesAndDistances, analyse_measured,
+    reduce_residual, times_and_distances,
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
-use crate::ground::footfalls::{Footfalls, footfalls};
+use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
-use crate::model::Model;
+use crate::ground::stances::{Stance, StanceSource};
+use crate::model::{CoordinateId, Model};
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -83,31 +88,51 @@ fn road(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
     let (observed, motion) = source.observe(settings, findings, progress)?;
+    let not_measured = unmeasured(&observed, &motion, findings);
     let motion = if settings.refit { refitted(&observed, motion, settings, findings) } else { motion };
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let Found { analysis, prediction, measured_events } =
-        forces(&observed, motion, processing, settings, findings, progress)?;
-    let mass = body_mass(&observed, &analysis, findings);
+    let mut observed = observed;
+    let kept = observed.takes_weighed_mass().then(|| (motion.clone(), findings.clone()));
+    let mut found = forces(&observed, motion, processing, settings, findings, progress)?;
+    let mut mass = body_mass(&observed, &found.analysis, findings);
+    if let Some(((motion, before), kg)) = kept.zip(mass.in_place_of_the_models()) {
+        *findings = before;
+        observed.scale_to(kg, findings)?;
+        found = forces(&observed, motion, processing, settings, findings, progress)?;
+        mass = body_mass(&observed, &found.analysis, findings);
+    }
+    let Found { analysis, prediction, measured_events, loads, processing } = found;
+    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
+    let directions = ForceDirections::of(&observed, &analysis.trajectory);
+    directions.report(findings);
     let Observation { model, person, origin, idle, .. } = observed;
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
+    let subject = origin.subject();
+    let (partly_measured, place_is_derived) = (origin.partly_measured(), matches!(origin, Origin::Sensors));
+    let tracking = tracking(origin, measured_events);
+    report_arms(tracking.as_ref(), findings);
     let computed = Computed {
-        subject: origin.subject(),
+        subject,
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
         device: device.map(|device| worn(&device, &analysis, findings)),
-        partly_measured: origin.partly_measured(),
-        place_is_derived: matches!(origin, Origin::Sensors),
-        tracking: tracking(origin, measured_events),
+        partly_measured,
+        place_is_derived,
+        tracking,
         person,
         analysis,
         prediction,
+        loads,
         reduction,
         mass,
         idle,
+        timing,
+        directions,
         recorded,
+        not_measured,
         processing,
         force_origin,
     };
@@ -125,16 +150,23 @@ struct Computed {
     person: Person,
     analysis: Analysis,
     prediction: Option<PredictedGround>,
+    /// The stances of measured forces.
+    loads: Option<StanceLoads>,
     reduction: Option<ReducedMotion>,
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
+    /// What force plates say about the clock.
+    timing: PlateTiming,
+    directions: ForceDirections,
     tracking: Option<Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     place_is_derived: bool,
     /// Times in which a force plate measured only a part of a foot's load [s].
     partly_measured: Vec<[f64; 2]>,
     recorded: Option<RecordedFaults>,
+    /// Coordinates that are not measured, and whether they are held.
+    not_measured: Vec<(CoordinateId, bool)>,
     processing: analysis::AnalysisSettings,
     force_origin: ForceOrigin,
 }
@@ -143,7 +175,8 @@ impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
         let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), processing);
+        let loads = self.loads.as_ref();
+        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
         let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
         let judged = Judged {
             activity: activity.kind,
@@ -157,35 +190,58 @@ impl Computed {
         };
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
+        let verdict = self.directions.set_aside(verdict, &force_origin);
+        let strides = times_and_distances(&body, &person.soles, &analysis);
+        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
             is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
             force_origin,
+            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,
             mass: &mass,
+            not_measured: &self.not_measured,
+            model: &body,
             idle: &self.idle,
+            directions: &self.directions,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
+            delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
+            tempo: self.timing.tempo.or_else(by_gait),
         };
         Outcome {
+            stances: loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone()),
+            completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
+            force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),
             mass: mass.after_reduction(body.mass()),
             tracking,
             activity,
-            times_and_distances: times_and_distances(&body, &person.soles, &analysis),
+            times_and_distances: strides,
             body,
             person,
             analysis,
-            force_origin,
+            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
             prediction,
             residual_reduction: self.reduction,
             device: self.device,
+            not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
             processing: Processing::of(&processing),
             subject: self.subject,
         }
+    }
+}
+
+/// Coordinates that nothing recorded determines. Recorded coordinates are what they are.
+fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
+    match (&observed.origin, motion) {
+        (Origin::Markers(_) | Origin::Skeleton(_) | Origin::Sensors, ObservedMotion::Recorded(motion)) => {
+            not_measured(&observed.model, motion, findings)
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -203,6 +259,24 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed, analysis.mass.source);
     mass.report(findings);
     mass
+}
+
+/// What measured forces say about the clock, also those that a prediction is compared with; a fault is reported.
+fn plate_timing(
+    observed: &Observation,
+    analysis: &Analysis,
+    prediction: Option<&PredictedGround>,
+    processing: &analysis::AnalysisSettings,
+    findings: &mut Findings,
+) -> PlateTiming {
+    let measured = match prediction {
+        Some(predicted) => predicted.measured.as_ref(),
+        None => Some(analysis).filter(|_| !matches!(observed.origin, Origin::Simulation { .. })),
+    };
+    let found = measured.and_then(|measured| PlateTiming::of(observed, measured, processing)).unwrap_or_default();
+    found.delay.iter().for_each(|delay| delay.report(findings));
+    found.tempo.iter().for_each(|tempo| tempo.report(findings));
+    found
 }
 
 fn device(observed: &Observation, findings: &mut Findings) -> Result<Option<DeviceRecording>, StudyError> {
@@ -230,11 +304,30 @@ fn stances<'p>(
     person: &Person,
     analysis: &Analysis,
     prediction: Option<&'p PredictedGround>,
+    loads: Option<&'p StanceLoads>,
     processing: analysis::AnalysisSettings,
 ) -> Cow<'p, Footfalls> {
-    let known = prediction.and_then(|found| found.stances(analysis, processing));
+    let of_measured = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let known = prediction.and_then(|found| found.stances(analysis, processing)).or(of_measured);
     let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
+}
+
+/// The clock by the gait, for activities in which people take steps on one level.
+fn tempo_of_gait(
+    body: &Model,
+    person: &Person,
+    analysis: &Analysis,
+    stances: &Footfalls,
+    strides: &TimesAndDistances,
+    activity: ActivityKind,
+    findings: &mut Findings,
+) -> Option<Tempo> {
+    let walks = matches!(activity, ActivityKind::Walk | ActivityKind::Turn);
+    let found = Tempo::of_gait(body, &person.soles, analysis, stances, strides, person.leg_length_m);
+    let found = found.filter(|_| walks)?;
+    found.report(findings);
+    Some(found)
 }
 
 /// Recognises the activity; reports a recording without a whole gait cycle, and ground forces that are predicted for an
@@ -280,6 +373,24 @@ fn without_faults_of_data(
         verdict.set_aside(|_| false, why);
     }
     verdict
+}
+
+/// Reports arms that do not fit a body whose legs and trunk fit.
+fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
+    let Some(Tracking::Markers(tracked)) = tracking else { return };
+    let [of_legs, of_trunk, of_arms] = rms_of_parts_m(tracked);
+    if Measure::MarkerFit.is_bad(of_arms.max(0.0))
+        && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
+    {
+        let message = format!(
+            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of \
+             the \
+             body are not those of the recording, which hardly changes the forces of the legs",
+            1e3 * of_arms,
+            1e3 * of_legs
+        );
+        findings.report(Code::MarkersArms, message);
+    }
 }
 
 /// Reports loaded feet that slide where forces were predicted; a refit may hold them.
@@ -423,24 +534,39 @@ fn forces(
     progress: &mut Progress<'_>,
 ) -> Result<Found, StudyError> {
     let Observation { model, forces, .. } = observation;
-    let (analysis, measured_events) = match motion {
+    match motion {
         ObservedMotion::Complete(trajectory) => {
             let source = ForceSource::Simulated;
-            (analyse_measured(model, trajectory, forces, source, findings, progress)?, Vec::new())
+            let analysis = analyse_measured(model, trajectory, forces, source, findings, progress)?;
+            Ok(Found { analysis, prediction: None, measured_events: Vec::new(), loads: None, processing })
         }
         ObservedMotion::Recorded(motion) if observation.is_predicted(settings) => {
             let found = predicted(observation, motion, processing, settings, findings, progress)?;
-            return match settings.ground {
+            match settings.ground {
                 GroundSettings::Tracked => tracked(found, observation, findings, progress),
                 _ => Ok(found),
-            };
+            }
         }
         ObservedMotion::Recorded(motion) => {
-            let analysis = analyse_with_progress(model, &motion, forces, processing, findings, progress)?;
-            with_markers(analysis, observation)
+            let Measured { analysis, loads, processing } =
+                measured(observation, &motion, processing, settings, findings, progress)?;
+            let (mut analysis, measured_events) = with_markers(analysis, observation);
+            analysis.cycles = loads.single(analysis.cycles);
+            Ok(Found { analysis, prediction: None, measured_events, loads: Some(loads), processing })
         }
+    }
+}
+
+/// The stances of predicted forces; none of other forces.
+fn stances_of(analysis: &Analysis, prediction: Option<&PredictedGround>) -> Vec<Stance> {
+    let Some(found) = prediction else { return Vec::new() };
+    let grid = analysis.trajectory.grid();
+    let (first, last) = (grid.start_s, grid.end_s());
+    let stance = |fall: &Footfall| {
+        let span = [fall.strike_s.unwrap_or(first), fall.off_s.unwrap_or(last)];
+        Stance::within(fall.side, span, StanceSource::Predicted, grid)
     };
-    Ok(Found { analysis, prediction: None, measured_events })
+    found.prediction.footfalls.falls.iter().filter_map(stance).collect()
 }
 
 fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings: &Settings) -> ForceOrigin {

@@ -16,6 +16,9 @@ pub struct Settings {
     pub smoother: Smoother,
     /// Low-pass of the measured forces that joint forces are computed from.
     pub force_filter: ForceFilter,
+    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by
+    /// it; negative for forces that are early.
+    pub force_delay_s: f64,
     /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs
     /// from the filter of the motion, because it must keep what plates measure.
     pub comparison_filter: Option<LowPass>,
@@ -67,6 +70,7 @@ impl Default for Settings {
         Settings {
             smoother: Smoother::Butterworth(Settings::LOW_PASS),
             force_filter: ForceFilter::ByMovement,
+            force_delay_s: 0.0,
             comparison_filter: Some(Settings::COMPARISON_LOW_PASS),
             window: Window::default(),
             rate_hz: None,

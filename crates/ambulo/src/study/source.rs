@@ -128,7 +128,7 @@ pub struct MarkerSource {
     pub standing: Option<Arc<StandingTrial>>,
     /// The body.
     pub body: MarkerBody,
-    /// Force plates of which the laboratory knows the foot.
+    /// Statements of the laboratory about force plates.
     pub plates: Vec<PlateAssignment>,
 }
 
@@ -160,22 +160,26 @@ pub enum MarkerBody {
     Calibrated(Box<Subject>),
 }
 
-/// Assignment of a force plate by the laboratory.
+/// A statement of the laboratory about a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlateAssignment {
-    /// The plate, counted from 0.
+    /// The plate, counted from 0 in the order of the file.
     pub plate: usize,
-    /// Its use.
+    /// What is known of it.
     pub(crate) used: PlateUse,
 }
 
-/// The feet that were on a force plate.
+/// What the laboratory knows of a force plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlateUse {
-    /// One foot.
+    /// One foot was on it.
     Foot(Side),
-    /// Nobody; what it measured is left out.
+    /// Nobody was; what it measured is left out.
     Off,
+    /// Its force along x (0) or y (1) has the wrong sign.
+    Flip(usize),
+    /// What it measured is right when it is turned to the left, as seen from above, by these quarters.
+    Turn(i32),
 }
 
 /// A mass that the person carried.

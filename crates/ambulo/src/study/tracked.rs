@@ -22,7 +22,9 @@ pub(super) fn tracked(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Found, StudyError> {
-    let Found { analysis, prediction: Some(mut ground), measured_events } = found else { return Ok(found) };
+    let Found { analysis, prediction: Some(mut ground), measured_events, loads, processing } = found else {
+        return Ok(found);
+    };
     let Observation { model, person, .. } = observation;
     let PredictedGround { prediction, measured, coverage, .. } = &ground;
     let (analysis, motion) = track(model, &analysis, prediction, &person.soles, &TrackSettings::default())?;
@@ -39,7 +41,7 @@ pub(super) fn tracked(
     report(&tracked, findings);
     (ground.agreement, ground.tracked) = (compared, Some(tracked));
     progress.end(Stage::Tracking)?;
-    Ok(Found { analysis, prediction: Some(ground), measured_events })
+    Ok(Found { analysis, prediction: Some(ground), measured_events, loads, processing })
 }
 
 fn report(tracked: &TrackedGround, findings: &mut Findings) {

@@ -147,6 +147,8 @@ pub(crate) fn plate(from: [f64; 2], to: [f64; 2], height: f64, loads: &[Load]) -
         moment,
         corners: [corner(to[0], from[1]), corner(from[0], from[1]), corner(from[0], to[1]), corner(to[0], to[1])],
         up: Vec3::y(),
+        center_from_sensors: Vec3::zeros(),
+        assumed_units: None,
         baseline_n: None,
         clipped: Vec::new(),
         times,

@@ -283,9 +283,11 @@ fn report_unusual_torsion(tibia_from_joint: &Mat3, side: Side, assumptions: &mut
     let out = if side == Side::Right { 1.0 } else { -1.0 };
     let outwards = atan2(-axis.x * out, axis.z).to_degrees();
     if !(TORSIONS_DEG[0]..=TORSIONS_DEG[1]).contains(&outwards) {
+        let way = if outwards < 0.0 { "inwards" } else { "outwards" };
+        let angle = outwards.abs();
         assumptions.push(format!(
-            "the {side} ankle axis is rotated outwards by {outwards:.0} degrees relative to the knee axis (usual: 10 \
-             to 30): a wand or a knee marker may be misplaced, which affects the moments about these axes"
+            "the {side} ankle axis is rotated {way} by {angle:.0} degrees relative to the knee axis (usual: 10 to 30 \
+             outwards): a wand or a knee marker may be misplaced, which affects the moments about these axes"
         ));
     }
 }

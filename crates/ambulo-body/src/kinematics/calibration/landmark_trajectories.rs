@@ -2,7 +2,7 @@
 
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, NamedMarker, RecognisedMarkers};
-use crate::motion::MarkerRecording;
+use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 
 /// Largest number of markers named in a message.
@@ -12,7 +12,7 @@ const MOST_NAMES: usize = 12;
 #[derive(Debug)]
 pub(super) struct LandmarkTrajectories<'a> {
     pub(super) recording: &'a MarkerRecording,
-    /// RecognisedMarkers markers, with their number in the recording.
+    /// Recognised markers that are visible in a frame, with their number in the recording.
     pub(super) markers: Vec<(&'a NamedMarker, usize)>,
     /// Names of the marker sets.
     pub(super) sets: &'a [String],
@@ -20,8 +20,12 @@ pub(super) struct LandmarkTrajectories<'a> {
 
 impl<'a> LandmarkTrajectories<'a> {
     pub(super) fn new(recording: &'a MarkerRecording, recognised: &'a RecognisedMarkers) -> LandmarkTrajectories<'a> {
-        let number =
-            |m: &'a NamedMarker| recording.markers.iter().position(|path| path.name == m.name).map(|index| (m, index));
+        // A marker that is listed but never seen determines nothing: the others of its segment must.
+        let is_seen = |path: &MarkerPath| (0..path.positions.len()).any(|frame| path.is_seen(frame));
+        let number = |m: &'a NamedMarker| {
+            let index = recording.markers.iter().position(|path| path.name == m.name)?;
+            is_seen(&recording.markers[index]).then_some((m, index))
+        };
         LandmarkTrajectories {
             recording,
             markers: recognised.markers.iter().filter_map(number).collect(),

@@ -46,6 +46,8 @@ mod upright;
 pub use axes::angles_zxy;
 pub use error::CalibrationError;
 pub(in crate::kinematics) use legs::stature;
+#[doc(hidden)]
+pub use pelvis::hip_centres;
 pub use person::{BodyMeasurements, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, MarkerPlacement, SegmentScale};

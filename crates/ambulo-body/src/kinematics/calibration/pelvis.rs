@@ -89,6 +89,15 @@ fn regression(width: f64, depth: f64) -> Vec3 {
     Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
 }
 
+/// Right and left hip centre [m], from the anterior spines, right first, and the back of the pelvis in the same axes.
+#[must_use]
+pub fn hip_centres([right, left]: [Vec3; 2], back: Vec3) -> Option<[Vec3; 2]> {
+    let (front, across) = ((right + left) * 0.5, right - left);
+    let rotation = from_z_x(across, front - back)?;
+    let hip = regression(across.norm(), (front - back).norm());
+    Some([1.0, -1.0].map(|out| front + rotation * Vec3::new(hip.x, hip.y, out * hip.z)))
+}
+
 fn from_spines(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
     let seen: Vec<_> = frames.iter().map(|&frame| spines(trajectories, frame)).collect();
     let known = || seen.iter().flatten();

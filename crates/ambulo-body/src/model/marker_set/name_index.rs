@@ -114,6 +114,12 @@ fn sided(bare: &str) -> impl Iterator<Item = (Side, String)> {
     front.chain(back).filter(|(_, rest)| !rest.is_empty()).map(|(side, rest)| (side, rest.to_owned()))
 }
 
+/// A recorded name without the subject's prefix and the word of this side; `None` if it has no such word.
+pub(super) fn stem(name: &str, side: Side) -> Option<String> {
+    let bare = bare(name.rsplit(':').next().unwrap_or(name));
+    sided(&bare).find(|(found, _)| *found == side).map(|(_, stem)| stem)
+}
+
 /// A recorded name, without the subject's prefix up to the last colon.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RecordedName {

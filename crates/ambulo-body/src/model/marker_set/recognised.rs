@@ -1,6 +1,6 @@
 //! Recognises the markers of a recording by their names.
 
-use super::name_index::{NameIndex, NameReading, RecordedName};
+use super::name_index::{NameIndex, NameReading, RecordedName, stem};
 use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
@@ -136,6 +136,20 @@ impl RecognisedMarkers {
     pub fn on(&self, landmark: Landmark, side: Option<Side>) -> Option<&str> {
         let is_it = |m: &&NamedMarker| m.definition.landmark == Some(landmark) && m.definition.side == side;
         self.markers.iter().find(is_it).map(|m| m.name.as_str())
+    }
+
+    /// The marker in the same place on the other side of the body: on the same landmark, or, for one without a
+    /// landmark, with the same name apart from the word of the side.
+    #[must_use]
+    pub fn opposite(&self, marker: &NamedMarker) -> Option<&NamedMarker> {
+        let NamedMarker { name, definition } = marker;
+        let other = definition.side?.other();
+        let stem = stem(name, definition.side?);
+        let is_opposite = |m: &&NamedMarker| {
+            let is_there = m.definition.side == Some(other) && m.definition.landmark == definition.landmark;
+            is_there && (definition.landmark.is_some() || self::stem(&m.name, other) == stem)
+        };
+        self.markers.iter().find(is_opposite)
     }
 
     /// Whether the pelvis is known by the centres of the hips alone, as networks locate them in video: no markers on

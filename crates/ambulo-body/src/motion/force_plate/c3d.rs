@@ -1,11 +1,14 @@
 //! Reads the force plates of a C3D file.
 
+use super::body_weight::ForceUnit;
 use super::decode::{PlateSource, decode, origin_was_reversed};
 use super::kind::Units;
 use super::{PlateRecording, PlateSettings, units};
 use crate::findings::{Code, Findings};
 use crate::motion::guessed_unit::metres_per_unit;
-use crate::spatial::Vec3;
+use crate::motion::subject_parameters::subject_from_c3d;
+use crate::numerics::{Shown, median};
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
 
@@ -42,7 +45,8 @@ pub fn plates_from_c3d(
     settings: PlateSettings,
     findings: &mut Findings,
 ) -> Result<Vec<PlateRecording>, PlateError> {
-    let platforms = file.platforms()?;
+    let described = described(file, findings)?;
+    let platforms: Vec<Platform> = described.iter().map(|(_, platform)| platform.clone()).collect();
     if platforms.is_empty() {
         return Ok(Vec::new());
     }
@@ -50,23 +54,83 @@ pub fn plates_from_c3d(
     let unit_m = plausible_unit(&platforms, unit_m, findings);
     report_polynomial(file, findings);
     let body = mean_marker(file).map(|p| p * unit_m);
-    let mut plates = Vec::new();
     let mut turned = Vec::new();
-    for (i, platform) in platforms.iter().enumerate() {
-        let name = format!("plate {}", i + 1);
+    let mut sources = Vec::new();
+    for (number, platform) in &described {
+        let name = format!("plate {number}");
         report_volts(file, platform, &name, findings);
         let source = source(file, platform, unit_m, body, name.clone());
         if source.as_ref().is_ok_and(origin_was_reversed) {
-            turned.push(i + 1);
+            turned.push(*number);
         }
-        let plate = source.and_then(|source| decode(&source, settings, findings));
-        match plate {
+        sources.push((name, source));
+    }
+    assume_unit(file, &mut sources, findings);
+    let mut plates = Vec::new();
+    for (name, source) in sources {
+        match source.and_then(|source| decode(&source, settings, findings)) {
             Ok(plate) => plates.push(plate),
             Err(reason) => findings.report(Code::PlatesUnusable, format!("{name} was left out: {reason}")),
         }
     }
     report_reversed(&turned, platforms.len(), findings);
     Ok(plates)
+}
+
+/// The platforms with their numbers, counted from 1. One whose description is incomplete is left out, with a warning,
+/// unless no other is left.
+fn described(file: &C3d, findings: &mut Findings) -> Result<Vec<(usize, Platform)>, PlateError> {
+    let all = file.each_platform();
+    if all.iter().all(Result::is_err) {
+        return Ok(all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().map(|platform| (1, platform)).collect());
+    }
+    let mut found = Vec::new();
+    for (i, platform) in all.into_iter().enumerate() {
+        match platform {
+            Ok(platform) => found.push((i + 1, platform)),
+            Err(reason) => {
+                let message = format!("plate {} was left out, because its description is incomplete: {reason}", i + 1);
+                findings.report(Code::PlatesUnusable, message);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// What a step weighs in body weights, within the error of a single step.
+const BODY_WEIGHT: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// A free moment of a foot has about this lever [m]: some newton metres under the weight of a person.
+const FREE_LEVER_M: f64 = 0.005;
+
+/// Assumes another unit of the forces where that of the file cannot be right, because no step of a person weighs so
+/// much or so little.
+fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)], findings: &mut Findings) {
+    let weight_n = subject_from_c3d(file).mass_kg.map(|kg| kg * STANDARD_GRAVITY);
+    let known = || sources.iter().filter_map(|(_, source)| source.as_ref().ok());
+    let stepped = median(known().filter_map(|source| Some(source.stepped_weight()? * source.units.force_n)));
+    let unit = stepped.and_then(|stepped| Some((stepped, ForceUnit::of_steps(stepped, weight_n)?)));
+    let Some((stepped, unit)) = unit else { return };
+    let Some(newtons) = unit.newtons(weight_n) else { return };
+    for source in sources.iter_mut().filter_map(|(_, source)| source.as_mut().ok()) {
+        // With its force alone multiplied, a free moment has a lever that is shorter by the same factor.
+        let is_off = |lever_m: f64| (lever_m / FREE_LEVER_M).max(FREE_LEVER_M / lever_m);
+        let keeps_moment = source.free_lever_m().is_some_and(|lever_m| is_off(lever_m / newtons) < is_off(lever_m));
+        let factor = if keeps_moment { 1.0 } else { newtons };
+        source.assumed = Some([newtons, factor]);
+        source.units.force_n *= newtons;
+        source.units.moment_nm *= factor;
+    }
+    let is_unsure = weight_n.is_none() && unit == ForceUnit::Kilonewtons && BODY_WEIGHT.contains(&stepped);
+    let or_else = if is_unsure { ", or in body weights, which the mass of the person would show" } else { "" };
+    let message = format!(
+        "steps on the force plates weigh {} N by the unit in the file, which no person does; the forces are in {}, of \
+         which a step weighs {:.0} N{or_else}, and were read so. hint: correct ANALOG:UNITS, ANALOG:SCALE or the \
+         calibration",
+        Shown((1e4 * stepped).round() / 1e4),
+        unit.name(),
+        stepped * newtons
+    );
+    findings.report(Code::PlatesUnitByWeight, message);
 }
 
 /// Reports reversed ORIGINs in one note for all plates: nearly every file of Vicon's programs has them.
@@ -112,6 +176,7 @@ fn source(
         zero: platform.zero_frames.map(|frames| zero_samples(file, frames)),
         times: file.analog_times(),
         rate_hz: file.analog_rate_hz,
+        assumed: None,
         body,
     })
 }

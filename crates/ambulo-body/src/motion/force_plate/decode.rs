@@ -1,11 +1,13 @@
 //! Converts the channels of one plate to forces in the axes of the laboratory.
 
 use super::baseline::{self, Baseline};
+use super::body_weight::stepped_weight;
 use super::clipping;
 use super::kind::{Layout, PlateKind, Units};
 use super::surface::Surface;
 use super::{PlateRecording, PlateSettings};
 use crate::findings::{Code, Findings};
+use crate::numerics::median;
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -27,6 +29,9 @@ pub(super) struct PlateSource {
     pub(super) times: Vec<f64>,
     pub(super) rate_hz: f64,
     pub(super) units: Units,
+    /// Factors by which forces and moments of the file were multiplied, because no step of a person weighs so much;
+    /// `None` if the unit of the file was used.
+    pub(super) assumed: Option<[f64; 2]>,
     /// Mean position of the markers, which are above the floor [m].
     pub(super) body: Option<Vec3>,
 }
@@ -57,6 +62,34 @@ struct Reading {
     units: Units,
     /// 1, or -1 if the file has the force of the foot on the plate.
     sign: f64,
+}
+
+impl PlateSource {
+    /// What a step on the plate weighs, in the unit of the file; `None` without a whole step.
+    pub(super) fn stepped_weight(&self) -> Option<f64> {
+        let layout = layout(self).ok()?;
+        let surface = Surface::through(&self.corners).ok()?;
+        let channels = calibrated(self, layout, &mut Findings::default()).ok()?;
+        let units = Units { force_n: 1.0, ..self.units };
+        let reading = Reading { kind: layout.kind, origin: self.origin, units, sign: 1.0 };
+        let vertical = vertical(&channels, reading, &surface, upward(&surface, self.body));
+        let largest = vertical.iter().copied().fold(0.0, |most: f64, x| most.max(x.abs()));
+        // The threshold of the sign is in newtons.
+        let sign = load_sign(&vertical.iter().map(|x| x * 1e4 / largest).collect::<Vec<_>>());
+        stepped_weight(&self.times, &vertical.iter().map(|x| sign * x).collect::<Vec<_>>())
+    }
+}
+
+impl PlateSource {
+    /// Lever of the free moment of type 1, the only moment of its channels, by the units in the file [m].
+    pub(super) fn free_lever_m(&self) -> Option<f64> {
+        let is_free = Layout::of_type(self.number).is_some_and(|layout| layout.kind == PlateKind::Point);
+        let (vertical, free) = (self.channels.get(2)?, self.channels.get(5)?);
+        let most = vertical.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let loaded = vertical.iter().zip(free).filter(|(f, _)| f.abs() > SOLID_LOAD * most);
+        let lever = loaded.map(|(f, t)| (t * self.units.moment_nm / (f * self.units.force_n)).abs());
+        median(lever).filter(|_| is_free)
+    }
 }
 
 /// Converts a plate to forces and moments in the axes of the laboratory.
@@ -93,6 +126,8 @@ pub(super) fn decode(
     }
     reading = corrected_reading(source, &surface, up, &channels, reading, findings);
     let mut recording = recording(source, &surface, up, &channels, reading);
+    let of_reading = reading.units.moment_nm / source.units.moment_nm;
+    recording.assumed_units = source.assumed.map(|[force, moment]| [force, moment * of_reading]);
     recording.baseline_n = removed.map(|b| b.vertical_n);
     recording.clipped = clipped;
     Ok(recording)
@@ -277,7 +312,7 @@ fn corrected_reading(
     if found >= LEAST_ON_PLATE_SHARE && (stated.kind.has_four_sensors() || moves_m(stated) >= LEAST_SPREAD_M) {
         return stated;
     }
-    for (other, what) in alternatives(stated) {
+    for (other, what) in alternatives(stated, source.assumed) {
         if share(other).is_some_and(|s| s >= ACCEPTED_ON_PLATE_SHARE) && moves_m(other) >= ACCEPTED_SPREAD_M {
             let message = format!(
                 "the centre of pressure of {} is not plausible with the units in the file; it is with {what}, so this \
@@ -300,18 +335,20 @@ fn corrected_reading(
     stated
 }
 
-fn alternatives(stated: Reading) -> Vec<(Reading, &'static str)> {
+fn alternatives(stated: Reading, assumed: Option<[f64; 2]>) -> Vec<(Reading, &'static str)> {
     let units = stated.units;
     match stated.kind {
         PlateKind::Wrench => {
             let moment =
                 |factor: f64| Reading { units: Units { moment_nm: units.moment_nm * factor, ..units }, ..stated };
             let turned = Reading { origin: -stated.origin, ..stated };
-            vec![
+            let of_file = assumed.map(|[_, factor]| (moment(1.0 / factor), "moments in the unit of the file"));
+            let others = [
                 (moment(1000.0), "moments a thousand times larger (N.m instead of N.mm)"),
                 (moment(0.001), "moments a thousand times smaller (N.mm instead of N.m)"),
                 (turned, "ORIGIN reversed"),
-            ]
+            ];
+            of_file.into_iter().chain(others).collect()
         }
         PlateKind::Point => {
             let length =
@@ -369,6 +406,8 @@ fn recording(
         force,
         corners: source.corners,
         up,
+        center_from_sensors: surface.lab_from_plate * reading.kind.lever(reading.origin),
+        assumed_units: None,
         baseline_n: None,
         clipped: Vec::new(),
     }

@@ -111,6 +111,16 @@ impl PlateKind {
         }
     }
 
+    /// From the origin of the sensors to the centre of the surface [m], in the plate's axes: o in M = M_sensors + F ×
+    /// o.
+    pub(super) fn lever(self, origin: Vec3) -> Vec3 {
+        match self {
+            PlateKind::Point => Vec3::zeros(),
+            PlateKind::Wrench => origin,
+            PlateKind::EightForces | PlateKind::TwelveForces => Vec3::z() * origin.z,
+        }
+    }
+
     /// Whether a channel is a coordinate, which has no offset to be removed.
     pub(super) fn is_coordinate(self, channel: usize) -> bool {
         self == PlateKind::Point && (3..5).contains(&channel)

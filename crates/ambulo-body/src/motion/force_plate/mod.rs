@@ -17,15 +17,19 @@
 //! Pinned by: tests/force_plate.rs, tests/laboratory_files.rs
 
 mod baseline;
+mod body_weight;
 mod c3d;
 mod clipping;
 mod decode;
 mod kind;
+mod reread;
 mod standing;
 mod surface;
 pub(crate) mod units;
 
+pub use body_weight::{ForceUnit, stepped_weight};
 pub use c3d::{PlateError, plates_from_c3d};
+pub use reread::CORNER_ORDERS;
 pub use standing::standing_weight_n;
 
 use crate::spatial::{Mat3, Vec3};
@@ -51,6 +55,12 @@ pub struct PlateRecording {
     pub corners: [Vec3; 4],
     /// Unit normal of the surface, upward.
     pub up: Vec3,
+    /// From the origin of the sensors to the centre of the surface [m]; zero where the file has moments about the
+    /// centre.
+    pub center_from_sensors: Vec3,
+    /// Factors by which forces and moments of the file were multiplied, because its own unit cannot be right; `None`
+    /// where it was used.
+    pub assumed_units: Option<[f64; 2]>,
     /// Vertical force of the unloaded plate that was removed [N]; `None` if nothing was removed.
     pub baseline_n: Option<f64>,
     /// Times during which a channel was clipped: first and last time [s].
@@ -139,6 +149,7 @@ impl PlateRecording {
             moment: turn(&self.moment),
             corners: self.corners.map(|c| world_from_lab * c),
             up: world_from_lab * self.up,
+            center_from_sensors: world_from_lab * self.center_from_sensors,
             ..self.clone()
         }
     }

@@ -9,10 +9,12 @@ use crate::record::{hash, hash_of_file};
 use ambulo::analysis::Analysis;
 use ambulo::job::trials::{PlannedTrial, relative};
 use ambulo::job::{Shared, bids_files_beside};
+use ambulo::model::Model;
 use ambulo::motion::Event;
 use ambulo_formats::table::Table;
 use ambulo_results::{
-    CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, Keep, TIMES_AND_DISTANCES, cycle_rows, unit_of,
+    CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, Keep, TIMES_AND_DISTANCES, columns_of_predictions, cycle_rows,
+    unit_of,
 };
 use anyhow::{Context, Error, Result};
 use serde_json::Value;
@@ -139,14 +141,28 @@ impl Work {
                 add_columns(&mut frames, &table, &file.name, prefix, &|column| unit_of(&file.name, column, Some(body)));
             }
         }
+        add_unwritten(&mut frames, &keep, body);
         // The place of a folder is no result: the same batch has the same bytes.
         summary.findings.iter_mut().for_each(|finding| finding.message = relative(&finding.message, &self.root));
         Ok(Computed {
             summary: serde_json::to_value(&summary)?,
             frames,
-            cycles: if keep.includes(CYCLES) { cycle_rows(body, &run.outcome.analysis) } else { Vec::new() },
+            cycles: if keep.includes(CYCLES) { cycle_rows(body, run.outcome.complete()) } else { Vec::new() },
             events: if keep.includes(EVENTS) { events.clone() } else { Vec::new() },
         })
+    }
+}
+
+/// Adds the columns of tables that a run writes only if forces were predicted, or predicted and measured, so that all
+/// trials of a body have the same columns.
+fn add_unwritten(frames: &mut Vec<FrameColumn>, keep: &Keep, body: &Model) {
+    let Some(count) = frames.first().map(|column| column.values.len()) else { return };
+    for (file, name, unit) in columns_of_predictions(body).into_iter().filter(|(file, ..)| keep.includes(file)) {
+        let prefix = PREFIXES.iter().find(|(known, _)| *known == file).map_or("", |(_, prefix)| prefix);
+        let name = format!("{prefix}{name}");
+        if frames.iter().all(|column| column.name != name) {
+            frames.push(FrameColumn { name, unit, values: vec![f64::NAN; count] });
+        }
     }
 }
 
@@ -163,10 +179,11 @@ fn add_columns(
         return;
     }
     for (name, values) in table.columns() {
-        if name == "time" && !frames.is_empty() {
+        let is_shared = name == "time" || name.starts_with("ground_source_");
+        let own = if is_shared { name.to_owned() } else { format!("{prefix}{name}") };
+        if is_shared && frames.iter().any(|known| known.name == own) {
             continue;
         }
-        let own = if name == "time" { name.to_owned() } else { format!("{prefix}{name}") };
         frames.push(FrameColumn { name: own, unit: unit(name), values: values.to_vec() });
     }
 }

@@ -89,8 +89,8 @@ fn check_recording(recording: &Path) -> Result<()> {
     }
     if recording.is_dir() {
         bail!(
-            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo batch` computes all recordings \
-             of a folder"
+            "{shown}: this is a folder; expected the path of a recording. hint: `ambulo session {shown}` computes the \
+             trials of a visit, `ambulo batch {shown}` all recordings of a folder"
         );
     }
     Ok(())
@@ -110,7 +110,7 @@ fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'stati
 /// The input files, for the summary.
 fn input(job: &Job, ground: Option<&Path>, stated: SubjectParameters, outcome: &Outcome) -> Input {
     let shown = |path: &Path| path.display().to_string();
-    let is_measured = outcome.force_origin == ForceOrigin::Measured
+    let is_measured = matches!(outcome.force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. })
         || outcome.prediction.as_ref().is_some_and(|prediction| prediction.measured.is_some());
     let is_subject = ending(job.recording()) == "b3d";
     let in_recording = ((outcome.tracking.is_some() || is_subject) && is_measured).then_some(job.recording());

@@ -29,7 +29,8 @@ impl Debug for Recorded<'_> {
             Adjustable::MotionAndBody => format_args!("Body"),
         });
         let added: Vec<Added<'_>> = job.added_mass.iter().map(Added).collect();
-        f.debug_struct("ForcesArgs")
+        let mut record = f.debug_struct("ForcesArgs");
+        record
             .field("input", &job.recording)
             .field("setup", &job.setups)
             .field("model", &job.model.as_ref().map(ModelChoice::path))
@@ -62,8 +63,11 @@ impl Debug for Recorded<'_> {
             .field("keep", &outputs.keep)
             .field("replace", &format_args!("ReplaceArgs {{ force: false }}"))
             .field("check", &format_args!("CheckArgs {{ check: false }}"))
-            .field("print", &format_args!("PrintArgs {{ json: false, quiet: false, verbose: false }}"))
-            .finish()
+            .field("print", &format_args!("PrintArgs {{ json: false, quiet: false, verbose: false }}"));
+        if settings.force_delay_s.abs() > 0.0 {
+            record.field("force_delay", &settings.force_delay_s);
+        }
+        record.finish()
     }
 }
 
@@ -72,8 +76,13 @@ struct Person<'a>(&'a Job);
 impl Debug for Person<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let job = self.0;
-        f.debug_struct("SubjectArgs")
-            .field("still", &job.standing)
+        let mut fields = f.debug_struct("SubjectArgs");
+        fields.field("still", &job.standing);
+        // Left out where it is not stated, so that the identifiers of earlier runs stay.
+        if let Some(subject) = &job.subject {
+            fields.field("subject", subject);
+        }
+        fields
             .field("mass", &job.size.mass_kg)
             .field("height", &job.size.height_m)
             .field("figure", &job.segments.name())

@@ -8,10 +8,15 @@ use serde_json::Value;
 use std::path::Path;
 
 pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
-    let npz = Npz::read(bytes)?;
+    let shapes = Npz::shapes(bytes)?;
+    // Of large arrays only those of a motion are read.
+    let is_short = |name: &str| shapes.array(name).is_some_and(|array| array.shape.iter().product::<usize>() <= 1);
+    let motion = SmplMotion::check_shapes(&shapes);
+    let is_motion = motion.is_ok();
+    let npz = Npz::read_named(bytes, |name| is_short(name) || (is_motion && SmplMotion::is_array(name)))?;
     let mut sheet = Sheet::of("NumPy arrays");
     sheet.list("arrays", npz.arrays.iter().map(|(name, array)| in_words(name, array)).collect());
-    match SmplMotion::from_npz(&npz) {
+    match motion.and_then(|()| SmplMotion::from_npz(&npz)) {
         Ok(motion) => {
             let frames = motion.translations.len();
             sheet.value("frames", frames);

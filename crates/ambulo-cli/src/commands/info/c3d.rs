@@ -4,7 +4,7 @@ use super::sheet::{short, wrapped};
 use super::{Sheet, markers};
 use ambulo::findings::Findings;
 use ambulo::ground::foot_motion::foot_motion;
-use ambulo::ground::plates::{ContactQuality, PlateContact, feet_on_plates};
+use ambulo::ground::plates::{ContactQuality, PlateContact, feet_on_plates, plates_under_feet};
 use ambulo::motion::{
     Laboratory, MarkerRecording, PlateRecording, PlateSettings, RecordedMotion, SegmentPoses, SubjectParameters,
     laboratory, motion_from_c3d, plates_from_c3d, subject_from_c3d,
@@ -214,6 +214,7 @@ fn add_feet(
     let markers = axes.markers(recording);
     let turned: Vec<PlateRecording> = plates.iter().map(|plate| axes.plate(plate)).collect();
     let motion = foot_motion(&markers, findings);
+    let turned = plates_under_feet(&markers, turned, &motion, findings);
     let feet = feet_on_plates(&markers, &turned, &motion, &[], findings);
     if feet.contacts.is_empty() {
         return;

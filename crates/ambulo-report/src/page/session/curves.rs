@@ -74,6 +74,9 @@ impl ShownCurve {
 
 /// The cycles of a foot, in the order of the file.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
+    if results.summary.not_measured.contains(&quantity.coordinates[side]) {
+        return Vec::new();
+    }
     let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
     if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
         return results.cycles_of(side).map(|cycle| over_cycle(results, cycle, side, &column, values)).collect();
@@ -188,6 +191,9 @@ impl Place<'_> {
     fn of<'a>(results: &'a Results, quantity: &ClinicalQuantity, side: Option<Side>) -> Option<Place<'a>> {
         let letter = side.map(Side::letter).unwrap_or_default();
         let coordinate = quantity.coordinates[side.unwrap_or(Side::Right)].clone();
+        if results.summary.not_measured.contains(&coordinate) {
+            return None;
+        }
         let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
         match quantity.group {
             ClinicalGroup::Kinematics => Some(place(&results.kinematics, KINEMATICS, coordinate)),

@@ -46,8 +46,11 @@ fn mean(results: &Results, quantity: StrideQuantity) -> Option<f64> {
 /// How far the ground forces can be trusted: the standard deviation of predicted ones, the residual of measured ones.
 fn uncertainty(results: &Results) -> Option<String> {
     if results.source != PageSource::Predicted {
-        let residual = results.summary.residual.as_ref()?;
-        return Some(format!("residual force {:.1} % of body weight", 100.0 * residual.force_rms_bw));
+        let residual = results.summary.residual.as_ref();
+        let residual =
+            residual.map(|residual| format!("residual force {:.1} % of body weight", 100.0 * residual.force_rms_bw));
+        let parts: Vec<String> = residual.into_iter().chain(results.summary.ground.shares()).collect();
+        return Some(parts.join("; ")).filter(|parts| !parts.is_empty());
     }
     let table = results.deviations.as_ref()?;
     let vertical = table.names().iter().filter(|name| name.ends_with("vy_sd"));

@@ -52,6 +52,8 @@ pub(super) fn missing(
     add(!no_ground && results.ground.is_none(), "No ground forces over time: the folder has no grf.mot.".to_owned());
     add(results.moments.is_none(), format!("No joint moments over time: the folder has no {MOMENTS}."));
     add(results.powers.is_none(), format!("No joint powers over time: the folder has no {POWERS}."));
+    let not_measured = &results.summary.not_measured;
+    add(!not_measured.is_empty(), format!("Not measured, and therefore not shown: {}.", not_measured.join(", ")));
     for sentence in absent_columns(results, quantities) {
         add(true, sentence);
     }

@@ -177,7 +177,7 @@ fn mass(folder: &Folder<'_>, summary: &Summary) -> Result<f64, ResultsError> {
 
 fn source(summary: &Summary) -> PageSource {
     match summary.ground.source {
-        GroundOrigin::Measured => PageSource::Measured,
+        GroundOrigin::Measured | GroundOrigin::Mixed => PageSource::Measured,
         GroundOrigin::Predicted => PageSource::Predicted,
         GroundOrigin::Simulated => PageSource::Simulated,
         GroundOrigin::None => PageSource::None,

@@ -84,9 +84,14 @@ fn unassigned_reason(distances: &[(Side, f64); 2]) -> String {
     match distances {
         [(_, r), (_, l)] if r.is_nan() && l.is_nan() => "no foot marker was visible".to_owned(),
         [(_, r), (_, l)] => {
-            format!("no foot is near its centre of pressure (right {:.0} mm, left {:.0} mm)", 1000.0 * r, 1000.0 * l)
+            format!("no foot is near its centre of pressure (right {}, left {})", away(*r), away(*l))
         }
     }
+}
+
+/// A distance [m] in words.
+fn away(distance_m: f64) -> String {
+    if distance_m.is_nan() { "not seen".to_owned() } else { format!("{:.0} mm", 1000.0 * distance_m) }
 }
 
 fn quality(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> (ContactQuality, String) {

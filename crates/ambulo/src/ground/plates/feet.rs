@@ -54,6 +54,28 @@ impl FeetInMotion<'_> {
         Some(hypot(level_distance(point, foot, plate.up), off_level_m(&line, plate)))
     }
 
+    /// Distance of a point from the foot along the ground [m].
+    pub(super) fn level_distance(&self, side: Side, point: Vec3, up: Vec3, time_s: f64) -> Option<f64> {
+        let [heel, toe] = self.line(side, time_s)?;
+        Some(level_distance(point, [heel, heel + (toe - heel) * (1.0 + BEYOND_TOE)], up))
+    }
+
+    /// Direction from heel to toe along the ground, a unit vector.
+    pub(super) fn direction(&self, side: Side, up: Vec3, time_s: f64) -> Option<Vec3> {
+        let [heel, toe] = self.line(side, time_s)?;
+        let along = (toe - heel) - up * up.dot(&(toe - heel));
+        along.try_normalize(1e-6)
+    }
+
+    /// A place near the mass centre: the middle of the pelvis or, without its markers, of all markers [m].
+    pub(super) fn body_center(&self, time_s: f64) -> Option<Vec3> {
+        let mean = |markers: &[usize]| {
+            let seen: Vec<Vec3> = markers.iter().filter_map(|marker| self.place(Some(*marker), time_s)).collect();
+            (!seen.is_empty()).then(|| seen.iter().sum::<Vec3>() / seen.len() as f64)
+        };
+        mean(&self.landmarks.pelvis()).or_else(|| mean(&(0..self.markers.markers.len()).collect::<Vec<_>>()))
+    }
+
     /// Whether the foot is over the plate, at the height of a foot that stands on it.
     pub(super) fn is_on(&self, side: Side, plate: &PlateRecording, time_s: f64) -> bool {
         let Some(line) = self.line(side, time_s) else { return false };

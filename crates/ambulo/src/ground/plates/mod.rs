@@ -8,11 +8,15 @@
 //! - **shared** if it is partial alone and complete together with another plate under the same foot,
 //! - **clean** otherwise.
 //!
+//! Before, plates are read as their feet show them ([`plates_under_feet`]).
+//!
 //! The **instrumented windows** are the times during which every foot on the ground is on a plate.
 //! Pinned by: tests/feet_on_plates.rs, tests/laboratory_files.rs
 
 mod by_foot;
 mod contact;
+mod corners;
+mod cross_talk;
 mod events;
 mod feet;
 mod windows;
@@ -98,6 +102,29 @@ pub(crate) struct SilentStance {
     pub side: Side,
     /// Foot strike and foot off by the motion [s].
     pub span: [f64; 2],
+}
+
+/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without
+/// cross-talk of one plate in another.
+#[must_use]
+pub fn plates_under_feet(
+    markers: &MarkerRecording,
+    plates: Vec<PlateRecording>,
+    motion: &FootMotion,
+    findings: &mut Findings,
+) -> Vec<PlateRecording> {
+    let feet = FeetInMotion { markers, landmarks: Landmarks::find(markers), motion };
+    plates_under_moving_feet(&feet, plates, findings)
+}
+
+/// [`plates_under_feet`] with known landmarks.
+#[must_use]
+pub(crate) fn plates_under_moving_feet(
+    feet: &FeetInMotion<'_>,
+    plates: Vec<PlateRecording>,
+    findings: &mut Findings,
+) -> Vec<PlateRecording> {
+    cross_talk::removed(feet, corners::in_order(feet, plates, findings), findings)
 }
 
 /// Assigns each contact to a foot. Markers and plates are in the world's axes. `assigned` has the plates (by index) of

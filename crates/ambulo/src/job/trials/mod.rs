@@ -4,6 +4,7 @@ mod found_file;
 mod manifest;
 pub(crate) mod participants;
 mod plan;
+mod recorded_person;
 
 pub use found_file::{FoundFile, Wanted};
 pub use plan::{Content, LIST, Listing, Plan, PlannedTrial, TrialFolder, relative};

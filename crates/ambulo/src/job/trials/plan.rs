@@ -18,6 +18,7 @@
 use super::TrialFiles;
 use super::found_file::{FoundFile, Wanted};
 use super::participants::Participants;
+use super::recorded_person::RecordedPerson;
 use crate::findings::Findings;
 use crate::job::error::{At, Field, JobError};
 use crate::job::files::{Files, read};
@@ -67,9 +68,16 @@ pub struct Plan {
     pub standing: Vec<String>,
 }
 
+/// What a recording is, and whose.
+#[derive(Debug, Clone)]
+pub struct Content {
+    kind: Kind,
+    person: RecordedPerson,
+}
+
 /// Kind of a recording, by its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Content {
+enum Kind {
     /// With force plates.
     Plates,
     /// Standing still.
@@ -80,11 +88,17 @@ pub enum Content {
     Broken(String),
 }
 
-impl Content {
+impl From<Kind> for Content {
+    fn from(kind: Kind) -> Content {
+        Content { kind, person: RecordedPerson::default() }
+    }
+}
+
+impl Kind {
     /// Why a recording without forces is no trial.
     fn without_forces(&self) -> String {
         match self {
-            Content::Broken(reason) => reason.clone(),
+            Kind::Broken(reason) => reason.clone(),
             _ => "no measured ground forces: no force plates, and no table of forces next to it".to_owned(),
         }
     }
@@ -166,15 +180,20 @@ impl<'a> Listing<'a> {
     pub fn content(&self, number: usize, files: &mut dyn Files) -> Content {
         let (file, stated) = &self.recordings[number];
         if stated.excluded.is_some() || !is_of_markers(file) {
-            return Content::Motion;
+            return Kind::Motion.into();
         }
         match read_laboratory_file(&file.path, files, &mut Findings::default()) {
             // A motion of BIDS may have coordinates instead of markers; the computation then reports the error.
-            Err(_) if file.is_bids_motion() => Content::Motion,
-            Err(error) => Content::Broken(error.text()),
-            Ok(recording) if recording.is_still() => Content::Still,
-            Ok(recording) if recording.recording.plates.is_empty() => Content::Motion,
-            Ok(_) => Content::Plates,
+            Err(_) if file.is_bids_motion() => Kind::Motion.into(),
+            Err(error) => Kind::Broken(error.text()).into(),
+            Ok(recording) => {
+                let kind = match () {
+                    () if recording.is_still() => Kind::Still,
+                    () if recording.recording.plates.is_empty() => Kind::Motion,
+                    () => Kind::Plates,
+                };
+                Content { kind, person: RecordedPerson::of(&recording) }
+            }
         }
     }
 
@@ -198,7 +217,7 @@ impl<'a> Listing<'a> {
         for file in self.found.iter().filter(|file| file.ending() == "b3d") {
             plan.add_subject(file, &self.list.of(&file.name), self.root, files);
         }
-        let is_still = |(_, content): &(&(&FoundFile, StatedTrial), &Content)| **content == Content::Still;
+        let is_still = |(_, content): &(&(&FoundFile, StatedTrial), &Content)| content.kind == Kind::Still;
         let still = self.recordings.iter().zip(contents).filter(is_still);
         plan.standing = still.map(|((file, _), _)| file.name.clone()).collect();
         plan.trials.sort_by(|a, b| a.name.cmp(&b.name));
@@ -366,11 +385,12 @@ struct Folders<'a> {
     wanted: Wanted,
     forces: BTreeMap<(&'a str, BTreeSet<String>), &'a FoundFile>,
     models: BTreeMap<&'a str, Vec<&'a FoundFile>>,
-    standing: BTreeMap<&'a str, &'a FoundFile>,
+    /// The standing trials of each folder, those with a usual name first.
+    standing: BTreeMap<&'a str, Vec<(&'a FoundFile, &'a RecordedPerson)>>,
 }
 
 impl<'a> Folders<'a> {
-    fn new(listing: &'a Listing<'_>, contents: &[Content]) -> Folders<'a> {
+    fn new(listing: &'a Listing<'_>, contents: &'a [Content]) -> Folders<'a> {
         let mut folders = Folders {
             root: &listing.root_name,
             root_path: listing.root,
@@ -387,13 +407,12 @@ impl<'a> Folders<'a> {
             }
         }
         let is_named = |file: &FoundFile| STANDING.iter().any(|word| file.stem().contains(word));
-        for ((file, _), _) in listing.recordings.iter().zip(contents).filter(|(_, content)| **content == Content::Still)
+        for ((file, _), content) in
+            listing.recordings.iter().zip(contents).filter(|(_, content)| content.kind == Kind::Still)
         {
-            let chosen = folders.standing.entry(&file.folder).or_insert(file);
-            if !is_named(chosen) && is_named(file) {
-                *chosen = file;
-            }
+            folders.standing.entry(&file.folder).or_default().push((file, &content.person));
         }
+        folders.standing.values_mut().for_each(|still| still.sort_by_key(|(file, _)| !is_named(file)));
         folders
     }
 
@@ -409,29 +428,30 @@ impl<'a> Folders<'a> {
             return Err(excluded(reason));
         }
         let path = |named: &String| self.root_path.join(named);
+        let Content { kind, person } = content;
         let key = (file.own_folder().to_owned(), own_words(file));
         let beside = || self.forces.get(&(key.0.as_str(), key.1.clone())).map(|table| table.path.clone());
-        let grf = match content {
-            Content::Still => return Err(self.use_of_standing(file)),
-            Content::Plates => None,
-            Content::Broken(_) if file.ending() == "c3d" => None,
-            Content::Motion | Content::Broken(_) => match stated.forces.as_ref().map(path).or_else(beside) {
+        let grf = match kind {
+            Kind::Still => return Err(self.use_of_standing(file)),
+            Kind::Plates => None,
+            Kind::Broken(_) if file.ending() == "c3d" => None,
+            Kind::Motion | Kind::Broken(_) => match stated.forces.as_ref().map(path).or_else(beside) {
                 Some(table) => Some(table),
                 None if stated.loads.is_some() || self.wanted == Wanted::Motion => None,
-                None => return Err(content.without_forces()),
+                None => return Err(kind.without_forces()),
             },
         };
-        if !taken.insert(key) && content != &Content::Plates {
+        if !taken.insert(key) && kind != &Kind::Plates {
             return Err("the same trial as another recording with this name".to_owned());
         }
         let model = stated.model.as_ref().map(path).or_else(|| self.model_of(file));
-        let standing = self.standing.get(file.folder.as_str()).filter(|_| model.is_none() && is_of_markers(file));
+        let standing = self.standing_of(file, person).filter(|_| model.is_none() && is_of_markers(file));
         Ok(PlannedTrial {
             name: file.name.clone(),
             person: stated.person.clone().unwrap_or_else(|| self.person(file)),
             kind: stated.kind.clone(),
             stated: stated.clone(),
-            broken: if let Content::Broken(reason) = content { Some(reason.clone()) } else { None },
+            broken: if let Kind::Broken(reason) = kind { Some(reason.clone()) } else { None },
             files: TrialFiles {
                 recording: file.path.clone(),
                 trial: None,
@@ -444,12 +464,24 @@ impl<'a> Folders<'a> {
         })
     }
 
+    /// The first standing trial of the folder that is of this person.
+    fn standing_of(&self, file: &FoundFile, person: &RecordedPerson) -> Option<&'a FoundFile> {
+        let all = self.standing.get(file.folder.as_str())?;
+        let same_name = || all.iter().find(|(_, still)| person.has_name_of(still) && person.may_be(still));
+        same_name().or_else(|| all.iter().find(|(_, still)| person.may_be(still))).map(|(file, _)| *file)
+    }
+
     fn use_of_standing(&self, file: &FoundFile) -> String {
-        match self.standing.get(file.folder.as_str()) {
-            Some(chosen) if *chosen == file => "the person stands still: the standing trial of this folder".to_owned(),
+        match self.standing.get(file.folder.as_str()).and_then(|all| all.first()) {
+            Some((chosen, _)) if *chosen == file => {
+                "the person stands still: the standing trial of this folder".to_owned()
+            }
             chosen => {
-                let name = chosen.map_or("", |chosen| &chosen.name);
-                format!("the person stands still; the standing trial of this folder is {name}")
+                let name = chosen.map_or("", |(chosen, _)| &chosen.name);
+                format!(
+                    "the person stands still; the standing trial of this folder is {name}, this one is for a recording \
+                     of another person"
+                )
             }
         }
     }

@@ -19,16 +19,24 @@ pub enum Measure {
     GroundForces,
     /// Share of the motion with measured ground forces.
     MeasuredForces,
+    /// Whether there is no time in which the measured forces can be compared with the motion.
+    UncheckedForces,
     /// Share of the measured load that lies under no foot.
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
+    /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
+    ForceDirections,
     /// Distance of markers or joints from the fitted body.
     MarkerFit,
     /// Distance of standing markers from the scaled model.
     Scaling,
     /// Ratio of scale factors.
     ScaleFactors,
+    /// Number of contradictions between the labels of markers, the standing trial and the person.
+    WhoseMarkers,
+    /// Number of coordinates of pelvis and legs that are not measured.
+    NotMeasured,
     /// Difference of the body mass from that on the plates.
     Mass,
     /// Share of the frames with an unknown posture.
@@ -49,6 +57,10 @@ pub enum Measure {
     DerivedPlace,
     /// Factor by which gravity in flight contradicts the stated frame rate.
     FrameRate,
+    /// Delay of the measured forces.
+    ForceDelay,
+    /// Factor by which the balance of the body contradicts the stated frame rate.
+    Tempo,
     /// Cut-off frequency that may be too low.
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
@@ -66,16 +78,20 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 21] = [
+    pub const ALL: [Measure; 27] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
+        Measure::UncheckedForces,
         Measure::UnassignedForces,
         Measure::SilentPlates,
+        Measure::ForceDirections,
         Measure::MarkerFit,
         Measure::Scaling,
         Measure::ScaleFactors,
+        Measure::WhoseMarkers,
+        Measure::NotMeasured,
         Measure::Mass,
         Measure::Gaps,
         Measure::Sliding,
@@ -86,6 +102,8 @@ impl Measure {
         Measure::AxialRotation,
         Measure::DerivedPlace,
         Measure::FrameRate,
+        Measure::ForceDelay,
+        Measure::Tempo,
         Measure::LowCutoff,
         Measure::HighCutoff,
     ];
@@ -99,11 +117,15 @@ impl Measure {
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
+            Measure::UncheckedForces => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
+            Measure::ForceDirections => AtLeast(0.5, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
+            Measure::WhoseMarkers => AtMost(0.0, 3.0),
+            Measure::NotMeasured => AtMost(0.0, 4.0),
             Measure::Mass => AtMost(0.05, 0.15),
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
@@ -114,6 +136,8 @@ impl Measure {
             Measure::AxialRotation => AtMost(3.0, 180.0),
             Measure::DerivedPlace => AtMost(0.0, 1.0),
             Measure::FrameRate => AtMost(1.2, WRONG_CLOCK),
+            Measure::ForceDelay => AtMost(0.01, 0.03),
+            Measure::Tempo => AtMost(1.1, 10.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
         }
@@ -135,11 +159,23 @@ impl Measure {
             Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
+            Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::MarkerFit => "distance of markers or joints from the fitted body, rms",
+            Measure::ForceDirections => {
+                "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
+            }
+            Measure::MarkerFit => {
+                "distance of markers or joints from the fitted body, rms; of legs and pelvis, or trunk, if it is worse"
+            }
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
+            Measure::WhoseMarkers => {
+                "number of contradictions: sides exchanged, limbs of another person, markers moved since standing"
+            }
+            Measure::NotMeasured => {
+                "number of coordinates of pelvis and legs that nothing recorded determines, so that they have one value"
+            }
             Measure::Mass => {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"
             }
@@ -160,14 +196,16 @@ impl Measure {
                 "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
                  piece"
             }
-            Measure::AxialRotation => {
-                "standard deviation of the axial rotation of the thighs, from the errors of keypoints"
-            }
+            Measure::AxialRotation => "standard deviation of axial rotation of the thighs, from errors of keypoints",
             Measure::DerivedPlace => {
                 "share of the motion in which the place of the person was derived from the feet on the ground"
             }
-            Measure::FrameRate => {
-                "factor between the stated frame rate and that at which the person falls with g in flight"
+            Measure::FrameRate => "factor between the stated frame rate and that of a fall with g in flight",
+            Measure::ForceDelay => {
+                "time by which measured forces are late or early against the motion, where it is longer than a frame"
+            }
+            Measure::Tempo => {
+                "factor between the stated frame rate and that at which the body balances over its feet, if they differ"
             }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
@@ -183,18 +221,24 @@ impl Measure {
             Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",
+            Measure::ForceDelay => "s",
             Measure::LowCutoff => "Hz",
             Measure::GroundForces
             | Measure::MeasuredForces
+            | Measure::UncheckedForces
             | Measure::UnassignedForces
             | Measure::SilentPlates
+            | Measure::ForceDirections
             | Measure::ScaleFactors
+            | Measure::WhoseMarkers
+            | Measure::NotMeasured
             | Measure::Mass
             | Measure::Gaps
             | Measure::Jumps
             | Measure::FrozenPoints
             | Measure::DerivedPlace
             | Measure::FrameRate
+            | Measure::Tempo
             | Measure::HighCutoff => "1",
         }
     }

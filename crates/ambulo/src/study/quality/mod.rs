@@ -12,14 +12,16 @@
 mod measure;
 pub(crate) mod stance_heights;
 
+use super::force_directions::{ForceDirections, is_used};
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
-use super::origin::{ForceOrigin, Tracking};
+use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
+use super::timing::{ForceDelay, Tempo};
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::kinematics::marker_fit::MarkerFit;
-use crate::model::Model;
+use crate::model::{BodyId, CoordinateId, Model};
 use crate::motion::{Jumps, Motion, Smoother, jumps};
 use crate::spatial::Vec3;
 #[doc(hidden)]
@@ -134,12 +136,21 @@ pub(super) struct QualityEvidence<'a> {
     /// Whether no frame remains without the ends of the motion, which are not measured.
     pub(super) is_too_short: bool,
     pub(super) force_origin: ForceOrigin,
+    /// Whether forces were measured, but at no time those of all loaded feet.
+    pub(super) is_never_complete: bool,
     pub(super) tracking: Option<&'a Tracking>,
     /// Whether the place of the person follows from the feet on the ground.
     pub(super) place_is_derived: bool,
     pub(super) mass: &'a BodyMass,
+    pub(super) not_measured: &'a [(CoordinateId, bool)],
+    pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
+    pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
+    /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
+    pub(super) delay: Option<ForceDelay>,
+    /// The clock of the motion, if it is wrong.
+    pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
 }
 
@@ -147,16 +158,20 @@ impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
+        let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unassigned_forces(), self.silent_plates()];
+        let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
+        let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
             of_forces
                 .into_iter()
                 .chain(of_plates)
+                .chain(of_recording)
                 .chain(of_keypoints)
                 .chain(of_body)
+                .chain(of_person)
                 .chain(of_feet)
                 .chain(of_motion)
                 .flatten(),
@@ -215,6 +230,16 @@ impl QualityEvidence<'_> {
         })
     }
 
+    /// Where no residual can be computed, nothing shows that the forces belong to the motion.
+    fn unchecked_forces(&self) -> Option<QualityReason> {
+        let value = if self.is_never_complete { 1.0 } else { 0.0 };
+        Measure::UncheckedForces.reason(value, |_| {
+            "forces were measured, but at no time those of all loaded feet: the residual cannot be computed, and \
+             nothing shows that forces and motion belong together"
+                .to_owned()
+        })
+    }
+
     fn unassigned_forces(&self) -> Option<QualityReason> {
         let (share, [from, to]) = self.idle.unassigned()?;
         Measure::UnassignedForces.reason(share, |limit| {
@@ -234,6 +259,13 @@ impl QualityEvidence<'_> {
         })
     }
 
+    /// A wrong sign or direction is in the moments, unless the forces are predicted.
+    fn force_directions(&self) -> Option<QualityReason> {
+        let (sentence, agreement) = self.directions.worst()?;
+        let reason = Measure::ForceDirections.reason(agreement, |_| sentence.to_owned());
+        reason.filter(|_| is_used(&self.force_origin))
+    }
+
     fn fit(&self) -> Option<&MarkerFit> {
         self.tracking.map(fit_of)
     }
@@ -242,7 +274,7 @@ impl QualityEvidence<'_> {
         let fit = self.fit()?;
         let rms_m = marker_fit_rms_m(self.tracking?);
         Measure::MarkerFit.reason(rms_m, |limit| {
-            let known = fit.errors.iter().filter(|error| error.rms_m.is_finite());
+            let known = fit.errors.iter().filter(|error| error.rms_m.is_finite() && !self.is_on_arm(&error.name));
             let farthest = known.max_by(|a, b| a.rms_m.total_cmp(&b.rms_m));
             let farthest = farthest.map_or(String::new(), |error| {
                 format!(", farthest `{}` with {}", error.name, millimetres(error.rms_m))
@@ -253,6 +285,26 @@ impl QualityEvidence<'_> {
                 millimetres(rms_m),
                 millimetres(limit)
             )
+        })
+    }
+
+    fn is_on_arm(&self, marker: &str) -> bool {
+        let marker = self.model.markers().iter().find(|known| known.name == marker);
+        marker.and_then(|marker| marker.body).is_some_and(|body| part_of(self.model, body) == 2)
+    }
+
+    fn whose_markers(&self) -> Option<QualityReason> {
+        let Some(Tracking::Markers(tracked)) = self.tracking else { return None };
+        let contradictions = &tracked.body.contradictions;
+        Measure::WhoseMarkers.reason(contradictions.len() as f64, |_| contradictions.join("; "))
+    }
+
+    fn unmeasured(&self) -> Option<QualityReason> {
+        let held = self.not_measured.iter().filter(|(_, is_held)| *is_held);
+        let names: Vec<String> =
+            held.map(|(id, _)| format!("`{}`", self.model.coordinates()[id.index()].name)).collect();
+        Measure::NotMeasured.reason(names.len() as f64, |_| {
+            format!("nothing recorded determines {}: one value in every frame", names.join(", "))
         })
     }
 
@@ -429,6 +481,16 @@ impl QualityEvidence<'_> {
         })
     }
 
+    fn force_delay(&self) -> Option<QualityReason> {
+        let delay = self.delay?;
+        Measure::ForceDelay.reason(delay.delay_s.abs(), |_| delay.message())
+    }
+
+    fn tempo(&self) -> Option<QualityReason> {
+        let tempo = self.tempo?;
+        Measure::Tempo.reason(tempo.wrong_by(), |_| tempo.message())
+    }
+
     fn cutoff(&self) -> Option<QualityReason> {
         let (Smoother::Butterworth(filter), rate_hz) = self.smoothed else { return None };
         let cutoff_hz = filter.cutoff_hz;
@@ -456,10 +518,56 @@ fn fit_of(tracking: &Tracking) -> &MarkerFit {
     }
 }
 
-/// Distance of markers or joints from the fitted body, rms over frames [m].
+/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with
+/// the pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight
+/// of a fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
 pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
-    let known = fit_of(tracking).rms_m.iter().filter(|rms| rms.is_finite());
-    let squares: Vec<f64> = known.map(|rms| rms * rms).collect();
+    let all = root_mean_square(fit_of(tracking).rms_m.iter().copied());
+    match tracking {
+        Tracking::Markers(tracked) if Measure::MarkerFit.reason(all, |_| String::new()).is_some() => {
+            let [of_legs, of_trunk, _] = rms_of_parts_m(tracked);
+            let parts = [of_legs, of_trunk].into_iter().filter(|rms| rms.is_finite());
+            parts.reduce(f64::max).map_or(all, |worst| worst.min(all))
+        }
+        _ => all,
+    }
+}
+
+/// Distances of the markers of pelvis and legs, of the trunk and of the arms, rms [m]; NaN for a part without markers.
+pub(super) fn rms_of_parts_m(tracked: &TrackedMarkers) -> [f64; 3] {
+    let model = &tracked.body.subject.model;
+    let part = |name: &str| {
+        let marker = model.markers().iter().find(|marker| marker.name == name)?;
+        Some(part_of(model, marker.body?))
+    };
+    let errors = &tracked.body.fit.errors;
+    [0, 1, 2].map(|wanted| {
+        let own = errors.iter().filter(|error| part(&error.name) == Some(wanted));
+        root_mean_square(own.map(|error| error.rms_m))
+    })
+}
+
+/// 0 for pelvis and legs, 1 for the trunk, 2 for the arms.
+fn part_of(model: &Model, body: BodyId) -> usize {
+    let anatomy = model.anatomy();
+    let hips: Vec<BodyId> = anatomy.legs().values().flatten().map(|leg| leg.hip).collect();
+    let mut above = Some(body);
+    while let Some(own) = above {
+        if hips.contains(&own) {
+            return 0;
+        }
+        above = model.bodies()[own.index()].joint.parent;
+    }
+    match anatomy.body_side(body) {
+        _ if anatomy.pelvis() == Some(body) => 0,
+        None => 1,
+        Some(_) => 2,
+    }
+}
+
+/// Of the numbers that are finite; NaN without any.
+fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let squares: Vec<f64> = values.filter(|value| value.is_finite()).map(|value| value * value).collect();
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
