@@ -461,7 +461,7 @@ fn utf_16_and_python_s_numbers_are_read() {
         let (names, values) = walk(&bench);
         let with = |frame: usize| {
             let line = line(frame, &values[frame]);
-            if frame == 9 { line.replacen(&values[9][0].to_string(), word, 1) } else { line }
+            if frame == 9 { line.replacen(&json!(values[9][0]).to_string(), word, 1) } else { line }
         };
         [heading(&names)].into_iter().chain((0..FEW).map(with)).collect::<Vec<String>>()
     };
