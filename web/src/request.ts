@@ -59,7 +59,7 @@ export interface Job {
   sensors?: SensorStatements;
   /** Files of measured ground forces. */
   forces?: ForceFiles;
-  /** Force plates of which the laboratory knows the foot. */
+  /** Force plates of which the laboratory knows the foot, or which signs and directions are wrong. */
   plates?: string[];
   /** Calibration of this person, by which predicted ground forces are corrected. */
   person?: string | null;

@@ -6,6 +6,7 @@ use ambulo_formats::bvh::Bvh;
 use ambulo_formats::table::Table;
 use ambulo_formats::trc::Trc;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -23,6 +24,9 @@ fn demo() -> &'static Workbench {
 struct Animation {
     document: Value,
     numbers: Vec<u8>,
+    /// The values of animated properties of nodes, one row per instant.
+    tracks: BTreeMap<(usize, String), Vec<Vec<f64>>>,
+    parents: Vec<Option<usize>>,
 }
 
 impl Animation {
@@ -31,7 +35,30 @@ impl Animation {
         let text = size(12);
         let document: Value = serde_json::from_slice(&file[20..20 + text]).unwrap();
         assert_eq!(document["asset"]["version"], "2.0");
-        Animation { document, numbers: file[28 + text..].to_vec() }
+        let numbers = file[28 + text..].to_vec();
+        let (tracks, parents) = (BTreeMap::new(), Vec::new());
+        let mut animation = Animation { document, numbers, tracks, parents };
+        animation.tracks = animation.tracks();
+        animation.parents = animation.parents();
+        animation
+    }
+
+    fn tracks(&self) -> BTreeMap<(usize, String), Vec<Vec<f64>>> {
+        let animation = &self.document["animations"][0];
+        let track = |channel: &Value| {
+            let (target, sampler) = (&channel["target"], channel["sampler"].as_u64().unwrap() as usize);
+            let node = target["node"].as_u64().unwrap() as usize;
+            let name = target["path"].as_str().unwrap().to_owned();
+            ((node, name), self.rows(&animation["samplers"][sampler]["output"]))
+        };
+        animation["channels"].as_array().unwrap().iter().map(track).collect()
+    }
+
+    fn parents(&self) -> Vec<Option<usize>> {
+        let nodes = self.document["nodes"].as_array().unwrap();
+        let carries =
+            |node: usize| move |other: &Value| other["children"].as_array().is_some_and(|c| c.contains(&json!(node)));
+        (0..nodes.len()).map(|node| nodes.iter().position(carries(node))).collect()
     }
 
     fn rows(&self, accessor: &Value) -> Vec<Vec<f64>> {
@@ -50,21 +77,10 @@ impl Animation {
 
     /// A property of a node at an instant.
     fn property(&self, node: usize, name: &str, instant: usize) -> Vec<f64> {
-        let animation = &self.document["animations"][0];
-        let target = json!({ "node": node, "path": name });
-        let channel = animation["channels"].as_array().unwrap().iter().find(|channel| channel["target"] == target);
-        match channel {
-            Some(channel) => {
-                let sampler = channel["sampler"].as_u64().unwrap() as usize;
-                self.rows(&animation["samplers"][sampler]["output"])[instant].clone()
-            }
+        match self.tracks.get(&(node, name.to_owned())) {
+            Some(rows) => rows[instant].clone(),
             None => serde_json::from_value(self.document["nodes"][node][name].clone()).unwrap(),
         }
-    }
-
-    fn parent(&self, node: usize) -> Option<usize> {
-        let carries = |other: &Value| other["children"].as_array().is_some_and(|list| list.contains(&json!(node)));
-        self.document["nodes"].as_array().unwrap().iter().position(carries)
     }
 
     /// A point of a node in the world at an instant [m].
@@ -75,7 +91,7 @@ impl Animation {
         // v + 2 w (u x v) + 2 u x (u x v)
         let across = axis.cross(&point);
         let outer = origin + point + across * (2.0 * w) + axis.cross(&across) * 2.0;
-        self.parent(node).map_or(outer, |parent| self.place(parent, outer, instant))
+        self.parents[node].map_or(outer, |parent| self.place(parent, outer, instant))
     }
 
     /// Corners of a node's mesh [m].

@@ -404,3 +404,27 @@ fn cells_that_depend_on_an_unknown_load_are_empty() {
     assert!(!cell("knee_flexion_r").is_empty() && !cell("knee_flexion_moment_l").is_empty());
     bench.run(&["report", "out", "-o", "again.html"]).done();
 }
+
+#[test]
+fn a_cycle_has_one_stance_also_if_a_stance_in_it_was_not_measured() {
+    let bench = Workbench::new("stance_not_measured");
+    bench.forces(&RAW).done();
+    let strikes: Vec<f64> = rows(&bench, "events.csv")
+        .iter()
+        .filter(|row| row[0] == "r" && row[1] == "strike")
+        .map(|row| row[2].parse().unwrap())
+        .collect();
+    let of_right = |bench: &Workbench| cycles(bench).into_iter().filter(|(side, _)| side == "r").count();
+    let whole = of_right(&bench);
+    assert!(strikes.len() >= 3 && whole + 1 == strikes.len(), "{strikes:?}");
+    bench.edit_rows("walk_grf.mot", |mut rows| {
+        let is_inside =
+            |cells: &[String]| (cells[0].parse::<f64>().unwrap() - strikes[1]).abs() < 0.45 * (strikes[1] - strikes[0]);
+        let lost = |cells: &[String]| is_inside(cells) && cells[0].parse::<f64>().unwrap() > strikes[1] - 0.05;
+        rows.iter_mut().filter(|cells| lost(cells)).for_each(|cells| cells[1..4].fill("0".to_owned()));
+        rows
+    });
+    let run = bench.forces(&RAW);
+    assert!(run.stdout.contains("of the right leg's loaded time"), "{}", run.stdout);
+    assert_eq!(of_right(&bench), whole - 2, "the cycles before and after the stance without a load");
+}

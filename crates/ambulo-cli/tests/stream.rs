@@ -369,7 +369,12 @@ fn scaled(q: &[f64], names: &[String], angles: f64, positions: f64) -> Vec<f64> 
 fn units_are_checked_as_in_a_recording_and_named_once() {
     let bench = Workbench::new("stream_units");
     let degrees = json!({ "angles": "deg" });
-    let numbered = |scale: [f64; 2]| move |frame: usize, q: &[f64], names: &[String]| json!({ "frame": frame, "q": scaled(q, names, scale[0], scale[1]) });
+    let numbered = |scale: [f64; 2]| {
+        move |frame: usize, q: &[f64], names: &[String]| {
+            json!({ "frame": frame,
+        "q": scaled(q, names, scale[0], scale[1]) })
+        }
+    };
     let in_radians = 1_f64.to_radians();
     for (head, scale, expected) in [
         (&degrees, [1.0, 1.0], None),

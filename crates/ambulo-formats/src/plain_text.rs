@@ -5,7 +5,6 @@
 //! lines of the text keep their numbers.
 
 use crate::error::Remark;
-use crate::xml::decode;
 use std::borrow::Cow;
 
 /// Bytes of a table in which its separators are looked for.
@@ -29,6 +28,15 @@ pub(crate) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
         [first, 0, second, 0, ..] if is_letter(*first) && is_letter(*second) => decoded(bytes, u16::from_le_bytes),
         [0, first, 0, second, ..] if is_letter(*first) && is_letter(*second) => decoded(bytes, u16::from_be_bytes),
         _ => Cow::Borrowed(bytes),
+    }
+}
+
+/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.
+pub(crate) fn decode(bytes: &[u8]) -> String {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
     }
 }
 

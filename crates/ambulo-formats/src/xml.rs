@@ -2,6 +2,7 @@
 
 use crate::content;
 use crate::error::{Error, quoted};
+use crate::plain_text::decode;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Largest number of nodes that is read; a full-body model has some 10,000. The limit bounds memory on
@@ -88,15 +89,6 @@ pub(crate) fn document_text(bytes: &[u8]) -> String {
         [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
         _ => decode(bytes),
-    }
-}
-
-/// Bytes as UTF-8 text, with a byte-order mark removed; anything else is read as Latin-1, as old programs wrote it.
-pub(crate) fn decode(bytes: &[u8]) -> String {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
     }
 }
 

@@ -160,7 +160,8 @@ fn csv_that_is_not_whole_is_named() {
 fn a_file_of_another_kind_is_named() {
     assert_eq!(
         markers(STORAGE),
-        "the content is an OpenSim table (.mot or .sto); expected a marker file (.trc). hint: give the file a name that \
+        "the content is an OpenSim table (.mot or .sto); expected a marker file (.trc). hint: give the file a name \
+         that \
          ends with .mot or .sto"
     );
     let message = "line 1, element <Model>: found the outermost element <Model>; expected an <ExternalLoads> document";

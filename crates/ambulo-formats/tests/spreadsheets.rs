@@ -197,7 +197,8 @@ fn rows_above_and_below_the_names_of_a_csv_are_understood() {
 
 #[test]
 fn a_skeleton_with_decimal_commas_is_read() {
-    let text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0,0 1,5 0,0\nCHANNELS 1 Xrotation\n}\nMOTION\nFrames: 2\nFrame Time: 0,01\n1,5\n2,5\n";
+    let text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0,0 1,5 0,0\nCHANNELS 1 Xrotation\n}\nMOTION\nFrames: 2\nFrame Time: \
+        0,01\n1,5\n2,5\n";
     let (bvh, remarks) = worded(Bvh::read(text.as_bytes()).unwrap());
     assert_eq!((bvh.frame_time_s(), bvh.joints()[0].offset), (0.01, [0.0, 1.5, 0.0]));
     assert_eq!(remarks, ["numbers have a decimal comma; they were read with it"]);

@@ -7,7 +7,7 @@ use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, over_cycle};
 use ambulo::kinematics::ClinicalAngles;
-use ambulo::model::{Model, Side};
+use ambulo::model::{CoordinateId, Model, Side};
 use ambulo::study::{Outcome, PredictedGround};
 use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
 
@@ -22,29 +22,57 @@ pub fn figure_files(
     reasons: &[Reason],
     angles: Option<&ClinicalAngles>,
 ) -> Result<Vec<OutputFile<'static>>, FigureError> {
-    let mut files = Vec::new();
-    let caption = caption(model, analysis);
-    if let Some(svg) = residual_figure(model, analysis, &caption)? {
-        files.push(OutputFile::new("figures/quality.svg", svg.into_bytes()));
+    Drawn { model, analysis, reasons, angles, not_measured: &[] }.files()
+}
+
+/// What the figures of a run show.
+struct Drawn<'a> {
+    model: &'a Model,
+    analysis: &'a Analysis,
+    reasons: &'a [Reason],
+    angles: Option<&'a ClinicalAngles>,
+    /// Coordinates whose curves are no results.
+    not_measured: &'a [CoordinateId],
+}
+
+impl Drawn<'_> {
+    /// Whether a curve of a cycle is measured.
+    fn is_measured(&self, row: &CycleRow) -> bool {
+        let anatomy = self.model.anatomy();
+        !self.not_measured.iter().any(|id| {
+            let is_of_side = anatomy.coordinate_side(*id).is_none_or(|side| side == row.side);
+            let ending = row.quantity.strip_prefix(&self.model.coordinate_stem(*id));
+            is_of_side && ending.is_some_and(|ending| ["_angle", "_moment", "_power"].contains(&ending))
+        })
     }
-    let names = ClinicalNames::of_model(model);
-    let mut rows = cycle_rows(model, analysis);
-    if let Some(angles) = angles {
-        replace_angles(&mut rows, angles, &names, analysis);
+
+    fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
+        let Drawn { model, analysis, reasons, angles, .. } = *self;
+        let mut files = Vec::new();
+        let caption = caption(model, analysis);
+        if let Some(svg) = residual_figure(model, analysis, &caption)? {
+            files.push(OutputFile::new("figures/quality.svg", svg.into_bytes()));
+        }
+        let names = ClinicalNames::of_model(model);
+        let mut rows = cycle_rows(model, analysis);
+        rows.retain(|row| self.is_measured(row));
+        if let Some(angles) = angles {
+            replace_angles(&mut rows, angles, &names, analysis);
+        }
+        if !rows.is_empty() {
+            let figures = CycleFigures {
+                rows: &rows,
+                names: &names,
+                convention: if angles.is_some() { Convention::Clinical } else { Convention::Opensim },
+                mass_kg: analysis.mass.kg,
+                caption: &caption,
+                marks: &marks(analysis, reasons),
+                speed_dimensionless: speed_dimensionless(model, analysis),
+            };
+            files.extend(figures.files()?);
+        }
+        Ok(files)
     }
-    if !rows.is_empty() {
-        let figures = CycleFigures {
-            rows: &rows,
-            names: &names,
-            convention: if angles.is_some() { Convention::Clinical } else { Convention::Opensim },
-            mass_kg: analysis.mass.kg,
-            caption: &caption,
-            marks: &marks(analysis, reasons),
-            speed_dimensionless: speed_dimensionless(model, analysis),
-        };
-        files.extend(figures.files()?);
-    }
-    Ok(files)
 }
 
 /// Replaces the rows of pelvis and hips by clinical angles, with the signs of `cycles.csv`.
@@ -68,7 +96,14 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
 /// A figure that could not be drawn.
 pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<OutputFile<'static>>, FigureError> {
     let (angles, _) = angles_of(outcome, chosen);
-    let mut files = figure_files(&outcome.body, outcome.complete(), &outcome.verdict.reasons, angles.as_ref())?;
+    let drawn = Drawn {
+        model: &outcome.body,
+        analysis: outcome.complete(),
+        reasons: &outcome.verdict.reasons,
+        angles: angles.as_ref(),
+        not_measured: &outcome.not_measured,
+    };
+    let mut files = drawn.files()?;
     if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
         let predicted = PredictedMotion { analysis: &outcome.analysis, prediction, measured: measured.as_ref() };
         let svg = prediction_figure(&outcome.body, predicted, &caption(&outcome.body, &outcome.analysis))?;

@@ -170,3 +170,24 @@ fn the_clinical_convention_tilts_the_pelvis_and_flexes_the_hips_by_the_same() {
     let bands = of_panel(&shown, "band") - of_panel(&own_shown, "band");
     assert!((cycles - hip).abs() < 1.0 && (bands - 12.0).abs() < 3.0, "{cycles} {bands}");
 }
+
+#[test]
+fn a_coordinate_that_is_not_measured_is_in_no_clinical_curve_and_in_no_figure() {
+    let (mut outcome, _) = walk();
+    let columns = |outcome: &Outcome| {
+        let bytes = clinical_file(outcome, Convention::Clinical).0.bytes().unwrap();
+        Table::read_csv(&bytes).unwrap().0.names().to_vec()
+    };
+    let curves = |outcome: &Outcome| {
+        let files = outcome_figures(outcome, Convention::Clinical).unwrap();
+        let file = files.into_iter().find(|file| file.name == "figures/kinematics.svg").unwrap();
+        let figure = Figure::read(&String::from_utf8(file.bytes().unwrap()).unwrap());
+        figure.panels.iter().find(|panel| panel.id == "ankle_dorsiflexion_angle").unwrap().lines.len()
+    };
+    let (all, drawn) = (columns(&outcome), curves(&outcome));
+    outcome.not_measured = vec![outcome.body.coordinate("ankle_angle_r").unwrap()];
+    let left = columns(&outcome);
+    let lost: Vec<_> = all.iter().filter(|name| !left.contains(name)).map(String::as_str).collect();
+    assert_eq!(lost, ["ankle_dorsiflexion_r", "ankle_dorsiflexion_moment_r", "ankle_dorsiflexion_power_r"]);
+    assert!(curves(&outcome) < drawn, "{drawn}");
+}

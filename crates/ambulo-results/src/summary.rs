@@ -81,7 +81,8 @@ pub struct Summary {
     pub comparison: Option<GroundAgreement>,
     /// Marker fit, segments, plates and events; `null` for recorded coordinates.
     pub subject: Option<SubjectSummary>,
-    /// Coordinates of pelvis and legs that nothing recorded determines, or that sit on a limit; left out if there are none.
+    /// Coordinates of pelvis and legs that nothing recorded determines, or that sit on a limit; left out if there are
+    /// none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_measured: Vec<String>,
     /// Residual reduction; `null` if the motion was not changed.

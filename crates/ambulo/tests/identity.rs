@@ -249,7 +249,8 @@ fn two_people_in_one_file_are_refused_with_their_names_and_one_can_be_chosen() {
     markers(&mut anna).trial.recording.markers = both;
     let refused = study::run(anna.clone(), &Settings::default(), &mut Findings::default()).unwrap_err();
     assert!(
-        matches!(&refused, StudyError::Markers(MarkerTrialError::SeveralPeople { people, .. }) if *people == ["Anna", "Ben"])
+        matches!(&refused, StudyError::Markers(MarkerTrialError::SeveralPeople { people, .. }) if *people == ["Anna",
+            "Ben"])
     );
     let file = markers(&mut anna).trial.clone();
     let chosen = file.clone().of_person(Some("anna")).unwrap();

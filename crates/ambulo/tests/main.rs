@@ -38,6 +38,7 @@ mod bushings;
 mod calibration;
 mod calibration_files;
 mod calibration_moments;
+mod clean_recordings;
 mod clinical_angles;
 mod consistent_walk;
 mod constraint_graph;

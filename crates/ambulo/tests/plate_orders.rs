@@ -12,8 +12,8 @@ use ambulo::spatial::Vec3;
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
-/// Two plates of 0.5 x 0.6 m, under the right foot's second stance and the left foot's that follows; the feet are not in
-/// their middle.
+/// Two plates of 0.5 x 0.6 m, under the right foot's second stance and the left foot's that follows; the feet are not
+/// in their middle.
 fn two_plates() -> Vec<PlateRecording> {
     let under = |(name, side): (&str, Side)| {
         let p = place(side, 1);

@@ -358,13 +358,15 @@ fn too_few_frames_are_an_error_with_the_duration_of_the_recording() {
     let motion = recorded(clock(), clock().into_iter().map(wave).collect());
     let window = |from: f64, to: f64| Window { from_s: Some(from), to_s: Some(to) };
     let text = |motion, window| smoothed(motion, Smoother::Off, window).0.unwrap_err().to_string();
-    let hint = "expected at least 6, which rates and accelerations need. hint: choose a longer range; motion and forces \
+    let hint = "expected at least 6, which rates and accelerations need. hint: choose a longer range; motion and \
+        forces \
                 are both known from 0.000 s to 3.000 s";
     assert_eq!(text(&motion, window(1.0, 1.04)), format!("the range from 1 s to 1.04 s has 5 frames; {hint}"));
     assert_eq!(text(&motion, window(2.0, 1.0)), format!("the range from 2 s to 1 s has 0 frames; {hint}"));
     assert_eq!(
         text(&motion, window(5.0, 6.0)),
-        "the range from 5 s to 6 s is outside of the recorded time, 0.000 s to 3.000 s. hint: choose a range inside the \
+        "the range from 5 s to 6 s is outside of the recorded time, 0.000 s to 3.000 s. hint: choose a range inside \
+         the \
          recorded time"
     );
     assert!(smoothed(&motion, Smoother::Off, window(1.0, 1.05)).0.is_ok());

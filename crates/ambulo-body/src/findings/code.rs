@@ -69,7 +69,8 @@ codes! {
         "Check the stature in the result, or set the unit in the file.";
     // Recorded coordinates.
     MotionUnitUnstated "motion.unit_unstated" Warning
-        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as degrees if \
+        "The file does not state whether its angles are in degrees or radians; they were read as radians, or as \
+         degrees if \
          they are too large for radians."
         "Add `inDegrees=yes` or `inDegrees=no` to the header.";
     MotionDegreesAsRadians "motion.degrees_as_radians" Warning
@@ -79,7 +80,8 @@ codes! {
         "Angles were read as degrees, but they are as small as angles in radians."
         "Set `inDegrees=no` in the header.";
     MotionLengthUnit "motion.length_unit" Warning
-        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or centimetres."
+        "Positions that should be in metres are as large, or change as fast, as positions in millimetres or \
+         centimetres."
         "State the unit of the positions, or convert them to metres.";
     MotionUnwrapped "motion.unwrapped" Note
         "An angle jumps by a whole turn between two frames; the turns were removed."
@@ -98,7 +100,8 @@ codes! {
          determines have gaps; the model's values were used."
         "Check that recording and model belong together.";
     MotionModelReplaced "motion.model_replaced" Warning
-        "Recorded values of a coordinate that the model locks or prescribes differ from those of the model; the recorded \
+        "Recorded values of a coordinate that the model locks or prescribes differ from those of the model; the \
+         recorded \
          values were used, as in OpenSim's inverse dynamics."
         "Check that recording and model belong together; without the column, the values of the model are used.";
     MotionOutOfRange "motion.out_of_range" Warning
@@ -304,7 +307,8 @@ codes! {
         "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
         "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
     MarkersSidesExchanged "markers.sides_exchanged" Warning
-        "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were exchanged \
+        "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were \
+         exchanged \
          back."
         "Correct the labels. If the axes of the laboratory are left-handed, mirror one axis instead: the sides of all \
          results are then exchanged.";
@@ -332,7 +336,8 @@ codes! {
     CalibrationPlaced "calibration.placed" Warning
         "The standing trial lacks a marker of a leg or the pelvis that the motion has; its place on the body was taken \
          from the motion."
-        "Nothing to do if the angles of this segment are plausible; otherwise record a standing trial with all markers.";
+        "Nothing to do if the angles of this segment are plausible; otherwise record a standing trial with all \
+         markers.";
     CalibrationOtherLimbs "calibration.other_limbs" Warning
         "The limbs of the standing trial have other lengths than those of the motion: it is another person's."
         "Give the standing trial of this person, or none.";
@@ -388,7 +393,8 @@ codes! {
          and more than the error of the measurement."
         "Give the right mass, or scale the model to this person; check that every foot is on a plate.";
     MassReplaced "mass.replaced" Warning
-        "Force plates carry another mass than the model has, and none is stated; the masses of the model were scaled to \
+        "Force plates carry another mass than the model has, and none is stated; the masses of the model were scaled \
+         to \
          the weighed one."
         "State the body mass if the weighed one is wrong; the mass of the model keeps the model as it is.";
     MassScaled "mass.scaled" Note
@@ -502,7 +508,8 @@ codes! {
         "Forces were recorded for a part of the motion only; the rest was left out."
         "Nothing to do.";
     ForcesDelayed "forces.delayed" Warning
-        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual force \
+        "The measured forces are late or early against the motion by more than 10 ms and one frame: both residual \
+         force \
          and residual moment fall by a tenth or more if the forces are shifted."
         "Synchronise plates and cameras, or shift the forces by the delay in the message.";
     LoadsNoSide "loads.no_side" Warning
@@ -604,7 +611,8 @@ codes! {
         "The calibration of the predicted forces and the recording name different persons; the calibration was used."
         "Calibrate with trials of this person, or correct the name of the subject in the files.";
     PredictionCalibrationUnusual "prediction.calibration_unusual" Warning
-        "The calibration changes the predicted forces by more than three of their standard deviations, more than people \
+        "The calibration changes the predicted forces by more than three of their standard deviations, more than \
+         people \
          differ."
         "Check the trials of the calibration: force plates, markers and mass.";
     PredictionCalibrationWorse "prediction.calibration_worse" Warning

@@ -207,7 +207,8 @@ fn report_replaced(coordinate: &Coordinate, worst: f64, findings: &mut Findings)
     let source = if matches!(coordinate.drive, Drive::Locked) { "is locked" } else { "is prescribed" };
     let unit = unit(coordinate);
     let message = format!(
-        "coordinate `{}` {source} in the model; the recorded values, which differ by up to {worst:.3} {unit}, were used, \
+        "coordinate `{}` {source} in the model; the recorded values, which differ by up to {worst:.3} {unit}, were \
+         used, \
          as in OpenSim's inverse dynamics. hint: without this column the values of the model are used",
         coordinate.name
     );
@@ -272,7 +273,8 @@ fn report_mismatch(
     let in_degrees = recorded.iter().zip(used).all(|(a, b)| (a.to_radians() - b).abs() <= COUPLER_TOLERANCE);
     let guess = if in_degrees { "; the recorded column is in degrees under a header that states radians" } else { "" };
     let message = format!(
-        "coordinate `{}` follows a coupler of the model; the recorded values, off by up to {worst:.3} {unit}, were not used{guess}",
+        "coordinate `{}` follows a coupler of the model; the recorded values, off by up to {worst:.3} {unit}, were not \
+         used{guess}",
         coordinate.name
     );
     findings.report(Code::MotionCoupledMismatch, message);

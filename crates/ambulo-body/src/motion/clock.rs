@@ -81,7 +81,8 @@ fn in_seconds(name: &str, times: &[f64], findings: &mut Findings) -> Option<Vec<
     let (unit, seconds) = unit_of_times(times)?;
     let step = median(times.windows(2).map(|pair| pair[1] - pair[0]))?;
     let message = format!(
-        "{name}: the times are {step:.4} apart, which are no seconds between two samples; they were read as {unit} ({:.2} \
+        "{name}: the times are {step:.4} apart, which are no seconds between two samples; they were read as {unit} \
+         ({:.2} \
          samples per second). hint: write the times in seconds",
         1.0 / (seconds * step)
     );
@@ -103,7 +104,8 @@ fn numbered(
         return None;
     }
     let message = format!(
-        "{name}: the times do not increase (all are {first} s); frame number over the stated rate of {stated_hz} Hz was \
+        "{name}: the times do not increase (all are {first} s); frame number over the stated rate of {stated_hz} Hz \
+         was \
          used instead"
     );
     findings.report(Code::MotionClock, message);
@@ -114,8 +116,8 @@ fn numbered(
     Some((0..times.len()).map(|frame| number(frame) / stated_hz).collect())
 }
 
-/// An even clock for times that were rounded so that steps repeat or differ: the stated rate if the times agree with it,
-/// otherwise the mean rate.
+/// An even clock for times that were rounded so that steps repeat or differ: the stated rate if the times agree with
+/// it, otherwise the mean rate.
 fn unrounded(name: &str, times: &[f64], stated_hz: Option<f64>, findings: &mut Findings) -> Option<Vec<f64>> {
     let (first, last) = (*times.first()?, *times.last()?);
     let steps = times.len().checked_sub(1)? as f64;
@@ -128,15 +130,16 @@ fn unrounded(name: &str, times: &[f64], stated_hz: Option<f64>, findings: &mut F
         return None;
     }
     let message = format!(
-        "{name}: the times were rounded to {digit} s, too coarse for {rate_hz:.2} samples per second; frame number over \
+        "{name}: the times were rounded to {digit} s, too coarse for {rate_hz:.2} samples per second; frame number \
+         over \
          this rate was used instead"
     );
     findings.report(Code::MotionClock, message);
     Some((0..times.len()).map(at).collect())
 }
 
-/// Whether the steps have two neighbouring lengths, both often, as rounding makes them; a repeated row makes one step of
-/// another length.
+/// Whether the steps have two neighbouring lengths, both often, as rounding makes them; a repeated row makes one step
+/// of another length.
 fn alternates(times: &[f64], digit: f64) -> bool {
     const OFTEN: f64 = 0.03;
     let lengths: Vec<i64> = times.windows(2).map(|pair| ((pair[1] - pair[0]) / digit).round() as i64).collect();

@@ -200,7 +200,8 @@ fn report_frames(times: &[f64], held: &[Range<usize>], findings: &mut Findings) 
     let Some(first) = held.first() else { return };
     let count: usize = held.iter().map(ExactSizeIterator::len).sum();
     let message = format!(
-        "{count} of {} frames repeat the frame before them exactly while the body moves, the first at {:.3} s: {}; they \
+        "{count} of {} frames repeat the frame before them exactly while the body moves, the first at {:.3} s: {}; \
+         they \
          were treated as gaps",
         times.len(),
         times[first.start],

@@ -1,5 +1,5 @@
-//! Checks of coordinates that arrive frame by frame: those of a recorded table ([`super::coordinates_from_table`]), with
-//! what has arrived so far. Each trouble is reported once.
+//! Checks of coordinates that arrive frame by frame: those of a recorded table ([`super::coordinates_from_table`]),
+//! with what has arrived so far. Each trouble is reported once.
 
 use super::import::{ENOUGH_ROTATIONS, LARGEST_PLAUSIBLE_ANGLE, SMALLEST_PLAUSIBLE_SPAN_DEG};
 use super::jumps::{AROUND, jump_in_the_middle, whole_turns};

@@ -121,7 +121,8 @@ pub enum MotionError {
     },
     /// A long time without any row.
     #[error(
-        "there is no row between {from_s:.4} s and {to_s:.4} s; expected steps of at most {longest_s} s. hint: choose a \
+        "there is no row between {from_s:.4} s and {to_s:.4} s; expected steps of at most {longest_s} s. hint: choose \
+         a \
          range on one side of the gap, or check the unit of the times"
     )]
     NoRows {

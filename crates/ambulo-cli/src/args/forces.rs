@@ -320,8 +320,8 @@ pub(crate) struct SubjectArgs {
     /// 1=r+flip-y; may be repeated [default: detected].
     #[arg(long, value_name = "N=r|l|off|...")]
     pub(crate) plate: Vec<PlateFoot>,
-    /// By how much the measured forces were recorded late against the motion [s]; they are moved to earlier times by it.
-    /// Negative if they are early. A warning (forces.delayed) states the delay that was found.
+    /// By how much the measured forces were recorded late against the motion [s]; they are moved to earlier times by
+    /// it. Negative if they are early. A warning (forces.delayed) states the delay that was found.
     #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = seconds, allow_negative_numbers = true,
         hide_default_value = true)]
     pub(crate) force_delay: f64,

@@ -108,8 +108,8 @@ pub(crate) struct ReplaceArgs {
     force: bool,
 }
 
-/// The same refusal; an option of `ambulo forces` that was typed before the `--` of another verb gets the right place in
-/// place of clap's advice to quote it.
+/// The same refusal; an option of `ambulo forces` that was typed before the `--` of another verb gets the right place
+/// in place of clap's advice to quote it.
 pub(crate) fn with_place_of_options(mut refused: clap::Error) -> clap::Error {
     let argument = match refused.get(ContextKind::InvalidArg) {
         Some(ContextValue::String(argument)) if refused.kind() == ErrorKind::UnknownArgument => argument.clone(),

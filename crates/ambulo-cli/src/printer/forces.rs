@@ -120,7 +120,8 @@ fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
     let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
     let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most {:.3} \
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most \
+         {:.3} \
          % of body weight, {steps} steps",
         100.0 * residual_peak
     ))

@@ -67,8 +67,8 @@ fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{}", visible(&line.to_string()));
 }
 
-/// Whether a character could change the terminal or what the text around it seems to say: a control code, or a mark that
-/// changes the direction of writing or is invisible (Unicode, UAX #9, bidirectional formatting characters).
+/// Whether a character could change the terminal or what the text around it seems to say: a control code, or a mark
+/// that changes the direction of writing or is invisible (Unicode, UAX #9, bidirectional formatting characters).
 pub(crate) fn is_code(c: char) -> bool {
     let is_hidden =
         matches!(c, '\u{061c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}');

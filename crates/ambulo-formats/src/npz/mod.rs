@@ -15,8 +15,8 @@ use crate::error::Error;
 
 /// Largest size of all arrays together once they are unpacked [bytes].
 pub const MAX_UNPACKED: usize = 1 << 30;
-/// Largest number of numbers in all arrays that are read together; each takes 8 bytes. A quarter of an hour of motion of
-/// the SMPL family at 120 Hz has 18 million, the largest of its models 13 million.
+/// Largest number of numbers in all arrays that are read together; each takes 8 bytes. A quarter of an hour of motion
+/// of the SMPL family at 120 Hz has 18 million, the largest of its models 13 million.
 pub const MAX_NUMBERS: usize = 1 << 25;
 /// Largest number of entries.
 pub const MAX_ENTRIES: usize = 4096;
@@ -87,8 +87,8 @@ impl Npz {
     }
 
     /// Reads some arrays of an archive, and of the others type and shape alone: they have no elements, as if they had
-    /// been read by [`Npz::shapes`]. Before anything is unpacked, the size of each array is compared with its shape, and
-    /// that of all wanted ones with [`MAX_NUMBERS`].
+    /// been read by [`Npz::shapes`]. Before anything is unpacked, the size of each array is compared with its shape,
+    /// and that of all wanted ones with [`MAX_NUMBERS`].
     ///
     /// # Errors
     /// As [`Npz::read`].

@@ -6,8 +6,8 @@ use super::lines::{Line, Lines, counted, duplicate, expected_number, is_time, nu
 use super::units::Units;
 use crate::content;
 use crate::error::{Error, Remark, quoted};
+use crate::plain_text::decode;
 use crate::plain_text::{PlainText, has_decimal_commas};
-use crate::xml::decode;
 use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder, Trim, WriterBuilder};
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -92,7 +92,8 @@ fn starts_with_numbers(lines: &Lines<'_>) -> Result<bool, Error> {
 /// Removes columns without a name: of cells that are empty, because rows end with a separator, and a first one that
 /// counts the rows, as pandas writes it. Returns the number of these empty cells.
 fn without_unnamed(table: &mut Table, line: usize) -> Result<usize, Error> {
-    let counts = |values: &[f64]| values.iter().enumerate().all(|(row, value)| *value - values[0] == row as f64);
+    let counts =
+        |values: &[f64]| values.iter().enumerate().all(|(row, value)| (value - values[0] - row as f64).abs() < 1e-9);
     let mut empty = 0;
     for k in (0..table.names.len()).rev().filter(|k| table.names[*k].is_empty()).collect::<Vec<_>>() {
         let values = &table.data[k];

@@ -10,9 +10,9 @@
 //! | CSV | header row, perhaps a row of units, then numbers; separated by commas, semicolons or tabs; an empty cell is not-a-number | commas; an apostrophe before names that a spreadsheet would take for formulas |
 //!
 //! Numbers are written in the shortest form that reads back to the same bits.
-//! Storage that a spreadsheet saved with commas, semicolons or decimal commas, and text in UTF-16, is read with a remark.
-//! Not handled, and rejected: storage of vectors (`DataType=Vec3`), storage without a time column, a comma that may be a
-//! decimal comma or divide thousands.
+//! Storage that a spreadsheet saved with commas, semicolons or decimal commas, and text in UTF-16, is read with a
+//! remark. Not handled, and rejected: storage of vectors (`DataType=Vec3`), storage without a time column, a comma that
+//! may be a decimal comma or divide thousands.
 //! Pinned by: tests/tables.rs, tests/malformed.rs, tests/real_files.rs
 
 mod content;
@@ -29,7 +29,8 @@ pub use rows::TableRows;
 
 use crate::error::{Error, Remark, quoted};
 
-/// Larger numbers are no measurements: 10^15 is a distance of a tenth of a light year, or a force of 10^12 body weights.
+/// Larger numbers are no measurements: 10^15 is a distance of a tenth of a light year, or a force of 10^12 body
+/// weights.
 const LARGEST: f64 = 1e15;
 
 const IN_MEMORY: &str = "writing to memory does not fail";
@@ -118,8 +119,8 @@ impl Table {
         self.columns().find(|(n, _)| *n == name).map(|(_, values)| values)
     }
 
-    /// Values of the first column \[s\] if its name is `time`, `Time (s)` or another word for it. Every storage file has
-    /// it, a CSV file may.
+    /// Values of the first column \[s\] if its name is `time`, `Time (s)` or another word for it. Every storage file
+    /// has it, a CSV file may.
     pub fn times(&self) -> Option<&[f64]> {
         let (name, values) = self.columns().next()?;
         lines::is_time(name).then_some(values)

@@ -57,16 +57,7 @@ pub(crate) fn residual_figure(
     let stroke = Stroke::solid(&style.text.color, 0.8 * style.lines_pt.mean);
     let line = |values: Vec<f64>| vec![Series { role: "residual", side: None, values, spread: None, stroke }];
     let [force, moment] = [0, 1].map(|k| sizes.iter().map(|size| size[k]).collect::<Vec<f64>>());
-    let about =
-        "The motion requires them, but neither joints nor ground supply them: errors of motion, body and forces.";
-    let note = match analysis.residual {
-        Some(Residual { force_rms_n, moment_rms_nm, .. }) => format!(
-            "Root mean square where every loaded foot was measured {force_rms_n:.1} N ({:.1} % of body weight) and \
-             {moment_rms_nm:.1} N·m. {about}",
-            100.0 * force_rms_n / weight.max(f64::MIN_POSITIVE),
-        ),
-        None => about.to_owned(),
-    };
+    let note = residual_note(analysis.residual, weight);
     let directions = ["", ""];
     let panels = [
         Panel {
@@ -89,6 +80,18 @@ pub(crate) fn residual_figure(
     let figure =
         TimeFigure { style, title: "Residual force and moment", caption, legend: Vec::new(), notes: vec![note] };
     Ok(Some(figure.draw(&analysis.trajectory.grid().times(), &panels)))
+}
+
+/// The size of the residual where all ground forces are known, and what it is.
+fn residual_note(residual: Option<Residual>, weight_n: f64) -> String {
+    let about =
+        "The motion requires them, but neither joints nor ground supply them: errors of motion, body and forces.";
+    let Some(Residual { force_rms_n, moment_rms_nm, .. }) = residual else { return about.to_owned() };
+    let percent = 100.0 * force_rms_n / weight_n.max(f64::MIN_POSITIVE);
+    format!(
+        "Root mean square where all ground forces are known: {force_rms_n:.1} N ({percent:.1} % of body weight) and \
+         {moment_rms_nm:.1} N·m. {about}"
+    )
 }
 
 /// A motion with predicted forces.

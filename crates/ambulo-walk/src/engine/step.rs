@@ -29,7 +29,8 @@ const MOST_IMPACTS: usize = 8;
 const BISECTIONS: usize = 50;
 
 /// Iterations of the solver in the smooth parts of one step, and in the search for an instant of contact; the rest of
-/// the step is then one of impulses. An impact is found by 52 trials of four stages, which take 2 to 10 iterations each.
+/// the step is then one of impulses. An impact is found by 52 trials of four stages, which take 2 to 10 iterations
+/// each.
 const MOST_ITERATIONS: usize = 8_000;
 /// Overlap at which an instant of contact ends a part of a step of impulses [m].
 const OVERLAP_M: f64 = 1e-9;
@@ -78,8 +79,8 @@ pub fn accelerations(
     smooth::accelerations(world, state, solver, &mut w.solver, &mut w.equations)
 }
 
-/// A step of impulses. It is divided at the instant at which a fast body meets a surface that it would have passed at the
-/// end of the step: bodies that rebound do so in the step in which they overlap.
+/// A step of impulses. It is divided at the instant at which a fast body meets a surface that it would have passed at
+/// the end of the step: bodies that rebound do so in the step in which they overlap.
 fn impulse_parts(
     world: &World,
     state: &mut WorldState,

@@ -60,8 +60,8 @@ pub(crate) struct Touch {
 }
 
 impl Touch {
-    /// Speed of approach of surfaces that are apart, will rebound, and would overlap after `h` by more than half of both
-    /// [m/s]: they would then be taken for surfaces that leave on the other side.
+    /// Speed of approach of surfaces that are apart, will rebound, and would overlap after `h` by more than half of
+    /// both [m/s]: they would then be taken for surfaces that leave on the other side.
     pub(super) fn passing_speed(
         &self,
         world: &World,

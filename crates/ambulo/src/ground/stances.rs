@@ -1,8 +1,9 @@
 //! The stances of both feet with the source of their loads, and ground forces that are complete.
 //!
-//! A laboratory has a few force plates, and the feet stand alongside them as well. A stance was **measured** if the load
-//! of its foot was measured for at least [`MEASURED_SHARE`] of it. A load that a plate measured in part (a foot over its
-//! edge) counts if it carries the body alone: in single support the vertical force is then what Newton's law requires,
+//! A laboratory has a few force plates, and the feet stand alongside them as well. A stance was **measured** if the
+//! load of its foot was measured for at least [`MEASURED_SHARE`] of it. A load that a plate measured in part (a foot
+//! over its edge) counts if it carries the body alone: in single support the vertical force is then what Newton's law
+//! requires,
 //!
 //!   Σ F ≥ c Σ m (a + g)        c = [`CARRIED_SHARE`], over the frames in which the other foot is in the air
 //!
@@ -186,7 +187,7 @@ impl MeasuredMotion<'_> {
             let of_parts = parts.iter().filter(overlaps).map(|part| part.span);
             let lacks = forces.as_ref().is_some_and(|forces| self.lacks(span, forces));
             let union = of_parts.fold(span, |[a, b], part| [a.min(part[0]), b.max(part[1])]);
-            (lacks || union != span).then_some(Missing { side, span: union })
+            (lacks || union[0] < span[0] || union[1] > span[1]).then_some(Missing { side, span: union })
         });
         let missing = missing.collect();
         let measured =

@@ -92,8 +92,8 @@ pub struct Job {
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
-    /// The person in recordings of several people: the prefix of the names of the markers. By default such recordings are
-    /// refused.
+    /// The person in recordings of several people: the prefix of the names of the markers. By default such recordings
+    /// are refused.
     pub subject: Option<String>,
     /// The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body.
     #[cfg_attr(feature = "schema", schemars(with = "Option<PathBuf>"))]

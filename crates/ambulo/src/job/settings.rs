@@ -38,8 +38,8 @@ pub struct Processing {
     #[serde(deserialize_with = "json::optional")]
     #[cfg_attr(feature = "schema", schemars(with = "Option<json::TextOrNumber>"))]
     pub force_cutoff: Option<ForceCutoff>,
-    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by it;
-    /// negative for forces that are early.
+    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by
+    /// it; negative for forces that are early.
     pub force_delay_s: f64,
     /// Order of one pass of the Butterworth filters.
     pub order: usize,

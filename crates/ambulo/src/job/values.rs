@@ -205,7 +205,8 @@ impl FromStr for PlateFoot {
     type Err = String;
     fn from_str(text: &str) -> Result<PlateFoot, String> {
         let expected = "expected PLATE=FOOT, such as 1=r, with plates counted from 1 and r, l or off as the foot; \
-            flip-x, flip-y, turn-90, turn-180 and turn-270 correct signs and directions, also together as in 1=r+flip-y";
+            flip-x, flip-y, turn-90, turn-180 and turn-270 correct signs and directions, also together as in \
+            1=r+flip-y";
         let (plate, words) = text.split_once('=').ok_or(expected)?;
         let uses = words.split('+').map(plate_use).collect::<Option<Vec<_>>>().ok_or(expected)?;
         match plate.trim().parse() {

@@ -1,8 +1,8 @@
 //! Finds horizontal forces with a wrong sign or direction.
 //!
 //! In every step the force of the ground leads nearly from the centre of pressure p to the mass centre c, because its
-//! moment about the mass centre only changes the angular momentum of the body, which is small (Herr, Popovic 2008, J Exp
-//! Biol 211:467, unverified):
+//! moment about the mass centre only changes the angular momentum of the body, which is small (Herr, Popovic 2008, J
+//! Exp Biol 211:467, unverified):
 //!
 //! ```text
 //! e = F_v (c - p)_h / (c - p)_v          r = Σ F·e / √(Σ F² Σ e²)      over the loaded frames of whole steps
@@ -356,12 +356,17 @@ fn sentences(sensors: &[Sensor<'_>], found: &[(usize, Fault)]) -> Vec<(String, f
 
 /// The names of some sensors, as in `plates 1, 2 and 3`.
 fn names(sensors: &[&Sensor<'_>]) -> String {
-    let is_plates = sensors.len() > 1 && sensors.iter().all(|sensor| sensor.name.starts_with("plate "));
-    let short = |name: &str| if is_plates { name.trim_start_matches("plate ").to_owned() } else { name.to_owned() };
-    let mut names: Vec<String> = sensors.iter().map(|sensor| short(sensor.name)).collect();
+    let is_plates = sensors.iter().all(|sensor| sensor.is_plate);
+    let short = |sensor: &&Sensor<'_>| match is_plates {
+        true => sensor.name.trim_start_matches("plate ").to_owned(),
+        false => format!("`{}`", sensor.name),
+    };
+    let mut names: Vec<String> = sensors.iter().map(short).collect();
+    let kind = if is_plates { "plate" } else { "load" };
+    let plural = if names.len() > 1 { "s" } else { "" };
     let last = names.pop().unwrap_or_default();
     let listed = if names.is_empty() { last } else { format!("{} and {last}", names.join(", ")) };
-    if is_plates { format!("plates {listed}") } else { listed }
+    format!("{}{kind}{plural} {listed}", if is_plates { "" } else { "the " })
 }
 
 fn sentence(fault: Fault, sensors: Vec<&Sensor<'_>>) -> Option<(String, f64)> {

@@ -74,8 +74,8 @@ impl LaboratoryFile {
         !spreads.is_empty() && still as f64 >= STILL_SHARE * spreads.len() as f64
     }
 
-    /// The markers of one person of several in the file, by the prefix of their names; the file as it is for `None`, and if
-    /// it is of one person who has this name or none.
+    /// The markers of one person of several in the file, by the prefix of their names; the file as it is for `None`,
+    /// and if it is of one person who has this name or none.
     ///
     /// # Errors
     /// A name that no person of the file has.

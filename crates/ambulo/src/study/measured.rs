@@ -13,7 +13,7 @@ use super::observation::Observation;
 use super::settings::Settings;
 use crate::analysis::activity::activity;
 use crate::analysis::{
-    Analysis, AnalysisError, AnalysisSettings, ForceSource, PredictionInput, Progress, Stage, analyse_measured,
+    Analysis, AnalysisError, AnalysisSettings, Cycle, ForceSource, PredictionInput, Progress, Stage, analyse_measured,
     predicted_in_frames, trajectory_of_measured, vertical_by_side,
 };
 use crate::dynamics::{Workspace, inverse_with_residual};
@@ -70,8 +70,8 @@ pub(super) fn measured(
     let predicted =
         || predicted_in_frames(model, motion, &trajectory, processing, &input, &mut Findings::default()).ok();
     let prediction = (!missing.is_empty()).then(predicted).flatten();
-    let kind = activity(model, &trajectory, &person.soles, person.leg_length_m, &footfalls).kind;
-    let is_known = prediction.is_some() && kind.has_validated_prediction();
+    let kind = || activity(model, &trajectory, &person.soles, person.leg_length_m, &footfalls).kind;
+    let is_known = prediction.is_some() && kind().has_validated_prediction();
     let source = if is_known { StanceSource::Predicted } else { StanceSource::Unknown };
     let others = missing
         .iter()
@@ -158,6 +158,24 @@ impl StanceLoads {
         let ground = completed(model, trajectory.grid(), &analysis.ground, prediction, &self.missing);
         let forces = inverse_with_residual(&mut Workspace::new(model), trajectory, &ground.loads());
         Some(Analysis { ground, forces, ..analysis.clone() })
+    }
+
+    /// The cycles in which the foot has one stance: between two measured strikes there may be one that was not
+    /// measured.
+    pub(super) fn single(&self, cycles: Vec<Cycle>) -> Vec<Cycle> {
+        let begins_inside = |stance: &Stance, cycle: &Cycle| {
+            let quarter_s = 0.25 * (cycle.end_s - cycle.start_s);
+            stance.side == cycle.side && (cycle.start_s + quarter_s..cycle.end_s - quarter_s).contains(&stance.start_s)
+        };
+        let mut single: Vec<Cycle> = cycles
+            .into_iter()
+            .filter(|cycle| !self.stances.iter().any(|stance| begins_inside(stance, cycle)))
+            .collect();
+        for i in 0..single.len() {
+            let side = single[i].side;
+            single[i].number = single[..=i].iter().filter(|cycle| cycle.side == side).count();
+        }
+        single
     }
 
     /// Whether loads are missing.

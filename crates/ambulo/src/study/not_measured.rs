@@ -6,8 +6,8 @@
 //! | on its limit in more than a tenth of the frames | the fit stops there, whatever the recording shows: a marker is misplaced, or the joint was folded the wrong way |
 //!
 //! Ranges are those of joints without load ([`crate::model::anthropometry`]), which no walk reaches for a tenth of the
-//! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record none
-//! of them.
+//! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
+//! none of them.
 
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model, Movement};
@@ -38,13 +38,14 @@ pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findin
     if let Some(first) = found.first() {
         let name = |one: &NotMeasured| format!("`{}` {}", model.coordinates()[one.coordinate.index()].name, one.why);
         let listed: Vec<String> = found.iter().map(name).collect();
-        let of_joints = if found.len() > 1 { "these joints are" } else { "this joint is" };
+        let of_joints = if found.len() > 1 { "these joints" } else { "this joint" };
         let cause = match first.is_held {
             true => "markers of the segment are missing in the standing trial or in the motion",
             false => "markers may be misplaced or exchanged",
         };
         let message = format!(
-            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} no result. hint: \
+            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} are no results. \
+             hint: \
              {cause}",
             listed.join(", ")
         );

@@ -102,13 +102,17 @@ fn road(
     let force_origin = force_origin(&origin, prediction.as_ref(), settings);
     let (analysis, reduction) =
         residual_reduced(&model, analysis, processing, settings, &force_origin, findings, progress)?;
+    let subject = origin.subject();
+    let (partly_measured, place_is_derived) = (origin.partly_measured(), matches!(origin, Origin::Sensors));
+    let tracking = tracking(origin, measured_events);
+    report_arms(tracking.as_ref(), findings);
     let computed = Computed {
-        subject: origin.subject(),
+        subject,
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
         device: device.map(|device| worn(&device, &analysis, findings)),
-        partly_measured: origin.partly_measured(),
-        place_is_derived: matches!(origin, Origin::Sensors),
-        tracking: tracking(origin, measured_events),
+        partly_measured,
+        place_is_derived,
+        tracking,
         person,
         analysis,
         prediction,
@@ -200,11 +204,8 @@ impl Computed {
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
         let verdict = self.directions.set_aside(verdict, &force_origin);
-        report_arms(tracking.as_ref(), findings);
         let strides = times_and_distances(&body, &person.soles, &analysis);
-        let PlateTiming { delay, tempo } = self.timing;
         let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
-        let tempo = tempo.or_else(by_gait);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -220,16 +221,13 @@ impl Computed {
             directions: &self.directions,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
-            // Late forces do no harm to a prediction that they are only compared with.
-            delay: delay.filter(|_| matches!(force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. })),
-            tempo,
+            delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
+            tempo: self.timing.tempo.or_else(by_gait),
         };
-        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
-        let rule = loads.and_then(StanceLoads::rule);
         Outcome {
-            stances: listed,
+            stances: loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone()),
             completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
-            force_delay_s: delay.map(|delay| delay.delay_s),
+            force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),
             mass: mass.after_reduction(body.mass()),
             tracking,
@@ -238,7 +236,7 @@ impl Computed {
             body,
             person,
             analysis,
-            force_origin: rule.map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
+            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
             prediction,
             residual_reduction: self.reduction,
             device: self.device,
@@ -398,7 +396,8 @@ fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
         && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
     {
         let message = format!(
-            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of the \
+            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of \
+             the \
              body are not those of the recording, which hardly changes the forces of the legs",
             1e3 * of_arms,
             1e3 * of_legs
@@ -564,7 +563,8 @@ fn forces(
         ObservedMotion::Recorded(motion) => {
             let Measured { analysis, loads, processing } =
                 measured(observation, &motion, processing, settings, findings, progress)?;
-            let (analysis, measured_events) = with_markers(analysis, observation);
+            let (mut analysis, measured_events) = with_markers(analysis, observation);
+            analysis.cycles = loads.single(analysis.cycles);
             Ok(Found { analysis, prediction: None, measured_events, loads: Some(loads), processing })
         }
     }

@@ -16,8 +16,8 @@ pub struct Settings {
     pub smoother: Smoother,
     /// Low-pass of the measured forces that joint forces are computed from.
     pub force_filter: ForceFilter,
-    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by it;
-    /// negative for forces that are early.
+    /// By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by
+    /// it; negative for forces that are early.
     pub force_delay_s: f64,
     /// Low-pass of the measured forces that a prediction is compared with; `None` leaves them as recorded. It differs
     /// from the filter of the motion, because it must keep what plates measure.

@@ -138,8 +138,8 @@ impl RecognisedMarkers {
         self.markers.iter().find(is_it).map(|m| m.name.as_str())
     }
 
-    /// The marker in the same place on the other side of the body: on the same landmark, or, for one without a landmark,
-    /// with the same name apart from the word of the side.
+    /// The marker in the same place on the other side of the body: on the same landmark, or, for one without a
+    /// landmark, with the same name apart from the word of the side.
     #[must_use]
     pub fn opposite(&self, marker: &NamedMarker) -> Option<&NamedMarker> {
         let NamedMarker { name, definition } = marker;

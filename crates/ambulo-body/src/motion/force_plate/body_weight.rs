@@ -18,7 +18,7 @@ const NEWTONS: [f64; 2] = [20.0, 12_000.0];
 const SAME_WEIGHT: f64 = 2.0;
 /// Kilonewtons and body weights are the same for a person of 102 kg; within this factor of each other the usual unit,
 /// kilonewtons, is taken.
-const SAME_UNIT: f64 = 1.15;
+const SAME_UNIT: f64 = 1.05;
 /// Shortest and longest step [s].
 const STEP_S: [f64; 2] = [0.12, 1.6];
 /// A step begins and ends at this share of the largest force.

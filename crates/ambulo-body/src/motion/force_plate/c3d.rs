@@ -102,8 +102,8 @@ const BODY_WEIGHT: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// A free moment of a foot has about this lever [m]: some newton metres under the weight of a person.
 const FREE_LEVER_M: f64 = 0.005;
 
-/// Assumes another unit of the forces where that of the file cannot be right, because no step of a person weighs so much
-/// or so little.
+/// Assumes another unit of the forces where that of the file cannot be right, because no step of a person weighs so
+/// much or so little.
 fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)], findings: &mut Findings) {
     let weight_n = subject_from_c3d(file).mass_kg.map(|kg| kg * STANDARD_GRAVITY);
     let known = || sources.iter().filter_map(|(_, source)| source.as_ref().ok());
@@ -124,7 +124,8 @@ fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)]
     let or_else = if is_unsure { ", or in body weights, which the mass of the person would show" } else { "" };
     let message = format!(
         "steps on the force plates weigh {} N by the unit in the file, which no person does; the forces are in {}, of \
-         which a step weighs {:.0} N{or_else}, and were read so. hint: correct ANALOG:UNITS, ANALOG:SCALE or the calibration",
+         which a step weighs {:.0} N{or_else}, and were read so. hint: correct ANALOG:UNITS, ANALOG:SCALE or the \
+         calibration",
         Shown((1e4 * stepped).round() / 1e4),
         unit.name(),
         stepped * newtons

@@ -111,7 +111,8 @@ impl PlateKind {
         }
     }
 
-    /// From the origin of the sensors to the centre of the surface [m], in the plate's axes: o in M = M_sensors + F × o.
+    /// From the origin of the sensors to the centre of the surface [m], in the plate's axes: o in M = M_sensors + F ×
+    /// o.
     pub(super) fn lever(self, origin: Vec3) -> Vec3 {
         match self {
             PlateKind::Point => Vec3::zeros(),

@@ -55,7 +55,8 @@ pub struct PlateRecording {
     pub corners: [Vec3; 4],
     /// Unit normal of the surface, upward.
     pub up: Vec3,
-    /// From the origin of the sensors to the centre of the surface [m]; zero where the file has moments about the centre.
+    /// From the origin of the sensors to the centre of the surface [m]; zero where the file has moments about the
+    /// centre.
     pub center_from_sensors: Vec3,
     /// Factors by which forces and moments of the file were multiplied, because its own unit cannot be right; `None`
     /// where it was used.

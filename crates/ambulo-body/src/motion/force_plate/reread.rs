@@ -1,8 +1,8 @@
 //! A plate read in another way: corners in another order, a component with the other sign.
 //!
-//! A file states the axes R of a plate by the order of its corners. Another order states other axes S, so that force and
-//! moment about the centre turn with T = s S Rᵀ; s is -1 where this would let the load act downwards, because a foot
-//! cannot pull. Four orders turn the plate, four reverse it.
+//! A file states the axes R of a plate by the order of its corners. Another order states other axes S, so that force
+//! and moment about the centre turn with T = s S Rᵀ; s is -1 where this would let the load act downwards, because a
+//! foot cannot pull. Four orders turn the plate, four reverse it.
 //!
 //! A component whose channel has the wrong sign changes the moment as well, because the sensors lie below the surface:
 //! M = M_sensors + F × o, with o from the sensors to the centre of the surface (kind.rs).

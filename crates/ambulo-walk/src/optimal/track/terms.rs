@@ -70,8 +70,8 @@ impl Recorded<'_> {
         ]
     }
 
-    /// Limits of a joint angle: its range, and [`TrackSettings::most_change`] from the recorded angle. Between them they
-    /// cost nothing. Recorded angles beyond the range stay allowed.
+    /// Limits of a joint angle: its range, and [`TrackSettings::most_change`] from the recorded angle. Between them
+    /// they cost nothing. Recorded angles beyond the range stay allowed.
     fn limits(&self, id: CoordinateId) -> Vec<Term> {
         let Recorded { model, trajectory, instants, settings, .. } = self;
         let coordinate = &model.coordinates()[id.index()];

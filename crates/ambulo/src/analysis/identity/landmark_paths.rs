@@ -1,5 +1,5 @@
-//! Positions of landmarks over the frames of a recording, in any axes, and the directions of the body that do not depend
-//! on the sides of the labels.
+//! Positions of landmarks over the frames of a recording, in any axes, and the directions of the body that do not
+//! depend on the sides of the labels.
 
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};

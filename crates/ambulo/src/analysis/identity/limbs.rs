@@ -7,9 +7,9 @@
 //! | shank | lateral epicondyle and lateral malleolus |
 //! | foot | heel and front of the foot |
 //!
-//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them; another
-//! person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their lengths,
-//! root mean square: one marker that slides by 20 mm cannot do that.
+//! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them;
+//! another person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their
+//! lengths, root mean square: one marker that slides by 20 mm cannot do that.
 
 use super::Contradictions;
 use super::landmark_paths::{FRONTS, LandmarkPaths};
@@ -71,24 +71,25 @@ pub(crate) fn difference(own: &[(String, f64)], other: &[(String, f64)]) -> Opti
     (ratios.len() >= FEWEST).then(|| rms(&ratios))
 }
 
-/// Reports a standing trial whose limbs are those of another person; returns whether they are.
+/// Reports a standing trial whose limbs are those of another person.
 pub(in crate::analysis) fn report_other_limbs(
     moving: &MarkerRecording,
     standing: &MarkerRecording,
     set: Option<&MarkerSet>,
     contradictions: &mut Contradictions,
     findings: &mut Findings,
-) -> bool {
+) {
     let (own, still) = (lengths(moving, set), lengths(standing, set));
-    let Some(share) = difference(&own, &still).filter(|share| *share > OTHER) else { return false };
+    let Some(share) = difference(&own, &still) else { return };
     let worst = own.iter().filter_map(|(name, length)| {
         let other = still.iter().find(|(known, _)| known == name)?.1;
         Some((name, *length, other))
     });
     let relative = |&(_, own, still): &(&String, f64, f64)| (own / still - 1.0).abs();
-    let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return false };
+    let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return };
     let message = format!(
-        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; at \
+        "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; \
+         at \
          most {:.1} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
          this person, or none",
         100.0 * share,
@@ -98,5 +99,4 @@ pub(in crate::analysis) fn report_other_limbs(
     );
     contradictions.push("the limbs of the standing trial are those of another person".to_owned());
     findings.report(Code::CalibrationOtherLimbs, message);
-    true
 }

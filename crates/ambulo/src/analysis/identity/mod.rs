@@ -20,20 +20,41 @@ mod several;
 mod sides;
 
 pub(super) use completion::completed;
-pub(super) use limbs::report_other_limbs;
 pub(crate) use limbs::{OTHER as OTHER_LIMBS, difference as limb_difference, lengths as limb_lengths};
-pub(super) use moved::report_moved;
+pub(super) use moved::moved;
 pub(super) use several::refuse_several;
 pub(crate) use several::{people_in, person_in};
 
 use super::laboratory_recording::LaboratoryRecording;
 use crate::findings::Findings;
 use crate::model::marker_set::MarkerSet;
+use crate::motion::MarkerRecording;
 use landmark_paths::LandmarkPaths;
 use std::borrow::Cow;
 
 /// What contradicts the labels or the standing trial of a person, one sentence each.
 pub(super) type Contradictions = Vec<String>;
+
+/// Reports a standing trial that is not that of the person of a motion, or whose markers are not those of the motion.
+///
+/// One or two markers that moved change the lengths of limbs too, so that these are asked only where they differ so
+/// much, or where no single marker explains it.
+pub(super) fn report_standing_trial(
+    [moving, standing]: [&MarkerRecording; 2],
+    moved: &[String],
+    set: Option<&MarkerSet>,
+    contradictions: &mut Contradictions,
+    findings: &mut Findings,
+) {
+    const BY_FAR: f64 = 2.0;
+    let share = limb_difference(&limb_lengths(moving, set), &limb_lengths(standing, set)).unwrap_or(0.0);
+    let are_few = (1..moved::ANOTHER_PERSON).contains(&moved.len());
+    if share > BY_FAR * OTHER_LIMBS || share > OTHER_LIMBS && !are_few {
+        limbs::report_other_limbs(moving, standing, set, contradictions, findings);
+    } else if !moved.is_empty() {
+        moved::report_moved(moved, contradictions, findings);
+    }
+}
 
 /// The recording with the labels of one person: left and right as the body shows them. `which` names it in messages.
 pub(super) fn with_right_labels<'a>(

@@ -3,8 +3,8 @@
 //! Two witnesses must agree, so that legs that cross (a scissor gait, arms folded in a standing trial) are no fault:
 //!
 //! - the right marker of the pair is to the left of the left one ([`super::sides`]);
-//! - both are nearer to the neighbouring joint of the other side than to that of their own: an ankle to the knee, a wrist
-//!   to the elbow. A forearm cannot be as long as the distance to the other elbow.
+//! - both are nearer to the neighbouring joint of the other side than to that of their own: an ankle to the knee, a
+//!   wrist to the elbow. A forearm cannot be as long as the distance to the other elbow.
 //!
 //! From the pelvis down and from the shoulders out, so that a neighbour is right when it is asked.
 

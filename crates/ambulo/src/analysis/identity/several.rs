@@ -24,8 +24,8 @@ pub(crate) fn people_in(markers: &MarkerRecording) -> Vec<String> {
     people(markers).map_or_else(Vec::new, |people| people.into_keys().map(str::to_owned).collect())
 }
 
-/// The markers of one person, without the prefix, and those without a prefix; the recording as it is if it does not have
-/// several people.
+/// The markers of one person, without the prefix, and those without a prefix; the recording as it is if it does not
+/// have several people.
 ///
 /// # Errors
 /// A name that no person of the recording has.

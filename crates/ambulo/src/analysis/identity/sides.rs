@@ -1,15 +1,16 @@
 //! Left and right exchanged in all labels.
 //!
 //! With up (feet to pelvis) and forward (heels to toes, back to front of the pelvis) known, right is right:
-//! right = forward × up. Neither changes when the labels of both sides are exchanged, so that each pair of markers votes:
+//! right = forward × up. Neither changes when the labels of both sides are exchanged, so that each pair of markers
+//! votes:
 //!
 //!   v = median over frames of (p_right - p_left) · right
 //!
 //! In a person every pair of hips, knees, ankles and shoulders has v > 0. If nearly all are negative, the labels are
 //! exchanged, or one axis of the laboratory is mirrored (left-handed axes): the markers of a symmetric body cannot tell
-//! these apart. Exchanged labels are the usual fault, of automatic labelling when a person comes from the other side, so
-//! they are exchanged back; the finding names both, and the quality is not good, because the sides of the results depend
-//! on it.
+//! these apart. Exchanged labels are the usual fault, of automatic labelling when a person comes from the other side,
+//! so they are exchanged back; the finding names both, and the quality is not good, because the sides of the results
+//! depend on it.
 
 use super::Contradictions;
 use super::landmark_paths::LandmarkPaths;
@@ -76,7 +77,8 @@ pub(super) fn exchanged_back(
         return None;
     }
     let message = format!(
-        "left and right are exchanged in all labels of the {which}: by heels, toes and pelvis {wrong} of {all} pairs of markers \
+        "left and right are exchanged in all labels of the {which}: by heels, toes and pelvis {wrong} of {all} pairs \
+         of markers \
          are on the other side, so that the person is mirrored; the labels were exchanged back. hint: correct the \
          labels; if the axes of the laboratory are left-handed (one axis mirrored) the labels are right, and left and \
          right of the results are exchanged"
@@ -87,7 +89,8 @@ pub(super) fn exchanged_back(
     Some(with_exchanged(paths, &pairs))
 }
 
-/// Exchanges the positions of every pair. Markers of one leg or arm alone have nobody to exchange with and are left out.
+/// Exchanges the positions of every pair. Markers of one leg or arm alone have nobody to exchange with and are left
+/// out.
 fn with_exchanged(paths: &LandmarkPaths<'_>, pairs: &[Pair<'_>]) -> MarkerRecording {
     let mut recording = paths.recording.clone();
     for Pair { numbers: [right, left], .. } in pairs {

@@ -1,11 +1,11 @@
 //! Finds the order of a plate's corners by the feet.
 //!
 //! FORCE_PLATFORM:CORNERS states the axes of a plate by the order of its corners. Of the eight orders that keep
-//! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at a
-//! distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the plate.
-//! Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre in every
-//! step (the moment about the mass centre is small), so that it correlates with the direction from the centre of
-//! pressure to the middle of the pelvis, along the foot with r₁ and across it with r₂. Means are not removed.
+//! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at
+//! a distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the
+//! plate. Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre
+//! in every step (the moment about the mass centre is small), so that it correlates with the direction from the centre
+//! of pressure to the middle of the pelvis, along the foot with r₁ and across it with r₂. Means are not removed.
 //!
 //! ```text
 //! cost = (d / 30 mm)² + ((1 - r₁) / 0.3)² + ((1 - r₂) / 0.5)²

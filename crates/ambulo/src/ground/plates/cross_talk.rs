@@ -1,7 +1,7 @@
 //! Removes the load that a plate shows under no foot while another plate is loaded: cross-talk.
 //!
-//! Amplifiers and cables let a part of one plate's signal appear in another, and a floor carries a part of a step to the
-//! next plate. Such a load is small, lasts as long as that of the loaded plate, and no foot stands on the plate. It
+//! Amplifiers and cables let a part of one plate's signal appear in another, and a floor carries a part of a step to
+//! the next plate. Such a load is small, lasts as long as that of the loaded plate, and no foot stands on the plate. It
 //! exceeds 20 N for seconds, so that the plate seems loaded long before a foot is on it.
 //! Pinned by: tests/feet_on_plates.rs
 
@@ -108,7 +108,7 @@ fn spans(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, highe
 fn report(plate: &PlateRecording, spans: &[[usize; 2]], findings: &mut Findings) {
     let samples = || spans.iter().flat_map(|[first, end]| *first..*end).filter(|i| plate.is_loaded(*i));
     let most = samples().map(|i| plate.vertical(i)).fold(0.0, f64::max);
-    let (first, last) = (samples().next().unwrap_or(0), samples().last().unwrap_or(0));
+    let (first, last) = (samples().next().unwrap_or(0), samples().next_back().unwrap_or(0));
     let message = format!(
         "{} shows up to {most:.0} N between {:.3} and {:.3} s while another plate is loaded and no foot stands on it: \
          cross-talk; it was removed",

@@ -104,8 +104,8 @@ pub(crate) struct SilentStance {
     pub span: [f64; 2],
 }
 
-/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without cross-talk
-/// of one plate in another.
+/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without
+/// cross-talk of one plate in another.
 #[must_use]
 pub fn plates_under_feet(
     markers: &MarkerRecording,

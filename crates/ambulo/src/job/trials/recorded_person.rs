@@ -4,8 +4,8 @@ use crate::analysis::identity::{OTHER_LIMBS, limb_difference, limb_lengths};
 use crate::study::LaboratoryFile;
 use std::collections::BTreeSet;
 
-/// Most that the limbs of recordings with other names differ (rms) if they are of one person nevertheless: skin moves that
-/// much.
+/// Most that the limbs of recordings with other names differ (rms) if they are of one person nevertheless: skin moves
+/// that much.
 const SAME: f64 = 0.03;
 /// Least share of the marker names that a standing trial has in common with a recording of the person.
 const COMMON: f64 = 0.3;

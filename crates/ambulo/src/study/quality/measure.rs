@@ -159,25 +159,19 @@ impl Measure {
             Measure::ResidualMoment => "residual moment about the root, rms over the same frames, per body mass",
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
-            Measure::UncheckedForces => {
-                "1 if forces were measured, but at no time those of all loaded feet, so that they cannot be compared \
-                 with the motion"
-            }
+            Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::ForceDirections => {
-                "correlation of a horizontal force that is mirrored or turned with the direction from the centre of \
-                 pressure to the mass centre, over whole steps"
+                "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
             Measure::MarkerFit => {
-                "distance of markers or joints from the fitted body, rms; where legs and pelvis, trunk and arms differ, of \
-                 the worst of them without the arms"
+                "distance of markers or joints from the fitted body, rms; of legs and pelvis, or trunk, if it is worse"
             }
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
             Measure::WhoseMarkers => {
-                "number of contradictions: left and right exchanged in all labels, limbs of another person in the standing \
-                 trial, markers that moved since then"
+                "number of contradictions: sides exchanged, limbs of another person, markers moved since standing"
             }
             Measure::NotMeasured => {
                 "number of coordinates of pelvis and legs that nothing recorded determines, so that they have one value"
@@ -202,21 +196,16 @@ impl Measure {
                 "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
                  piece"
             }
-            Measure::AxialRotation => {
-                "standard deviation of the axial rotation of the thighs, from the errors of keypoints"
-            }
+            Measure::AxialRotation => "standard deviation of axial rotation of the thighs, from errors of keypoints",
             Measure::DerivedPlace => {
                 "share of the motion in which the place of the person was derived from the feet on the ground"
             }
-            Measure::FrameRate => {
-                "factor between the stated frame rate and that at which the person falls with g in flight"
-            }
+            Measure::FrameRate => "factor between the stated frame rate and that of a fall with g in flight",
             Measure::ForceDelay => {
                 "time by which measured forces are late or early against the motion, where it is longer than a frame"
             }
             Measure::Tempo => {
-                "factor between the stated frame rate and that at which the body balances over its feet, where it is \
-                 clearly another one"
+                "factor between the stated frame rate and that at which the body balances over its feet, if they differ"
             }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",

@@ -147,7 +147,7 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) idle: &'a IdleForces,
     pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
-    /// How late the measured forces are.
+    /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
     pub(super) delay: Option<ForceDelay>,
     /// The clock of the motion, if it is wrong.
     pub(super) tempo: Option<Tempo>,
@@ -518,16 +518,16 @@ fn fit_of(tracking: &Tracking) -> &MarkerFit {
     }
 }
 
-/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with the
-/// pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight of a
-/// fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
+/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with
+/// the pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight
+/// of a fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
 pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
     let all = root_mean_square(fit_of(tracking).rms_m.iter().copied());
     match tracking {
         Tracking::Markers(tracked) if Measure::MarkerFit.reason(all, |_| String::new()).is_some() => {
             let [of_legs, of_trunk, _] = rms_of_parts_m(tracked);
             let parts = [of_legs, of_trunk].into_iter().filter(|rms| rms.is_finite());
-            parts.reduce(f64::max).unwrap_or(all)
+            parts.reduce(f64::max).map_or(all, |worst| worst.min(all))
         }
         _ => all,
     }

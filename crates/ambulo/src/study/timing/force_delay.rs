@@ -12,10 +12,11 @@
 //!   d = ((r - r₀) + e) / 2
 //!
 //! Both scatter: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
-//! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the bones
-//! late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and one frame
-//! and the residuals fall by a tenth at their minimum, neither of them rising. Noise, a wrong body and misplaced plates leave residuals that do
-//! not depend on s, fall in one of the two only, or are contradicted by the events.
+//! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the
+//! bones late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and
+//! one frame and the residuals fall by a tenth at their minimum, neither of them rising. Noise, a wrong body and
+//! misplaced plates leave residuals that do not depend on s, fall in one of the two only, or are contradicted by the
+//! events.
 //!
 //! | symbol | unit   | meaning                                                      |
 //! |--------|--------|--------------------------------------------------------------|

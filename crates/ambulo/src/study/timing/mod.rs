@@ -1,8 +1,8 @@
 //! Whether motion and measured forces have one clock, and whether that clock runs at the right rate.
 //!
 //! Mechanics decides. Every frame needs a wrench from the ground; its part that carries the weight does not depend on
-//! the clock, the rest is inertia, which changes with the square of the rate. [`force_delay`] shifts the measured forces
-//! in time until they fit best, [`tempo`] stretches the time of the motion until it fits.
+//! the clock, the rest is inertia, which changes with the square of the rate. [`force_delay`] shifts the measured
+//! forces in time until they fit best, [`tempo`] stretches the time of the motion until it fits.
 //! Pinned by: tests/study_timing.rs
 
 mod force_delay;

@@ -7,8 +7,8 @@
 //!   h(M_p(weight)) + k² h(M_p(inertia)) = 0,   k² by least squares over all frames; h: horizontal part.
 //!
 //! With force plates p is measured and every measured frame counts. Without, it is expected on the line of the sole,
-//! from [`CENTER_PATH`] of its length to the other end of this range; an error of 3 cm changes k by about a tenth, because
-//! the mass centre passes over the foot by 0.2 m.
+//! from [`CENTER_PATH`] of its length to the other end of this range; an error of 3 cm changes k by about a tenth,
+//! because the mass centre passes over the foot by 0.2 m.
 //!
 //! **People.** Lengths are relative to the length L of the leg, times to √(L/g) (Hof 1996). Step length over cadence
 //! (the walk ratio) hardly depends on speed, age and size, and the swing of a leg lasts as long as that of a pendulum:
@@ -53,7 +53,8 @@ const BY_GAIT: f64 = 1.3;
 const BY_PEOPLE: f64 = 1.15;
 /// Beyond this factor mechanics needs no second witness.
 const BY_MECHANICS: f64 = 1.45;
-/// With the right clock the needed centre of pressure comes closer to the foot, to less than this share of the distance.
+/// With the right clock the needed centre of pressure comes closer to the foot, to less than this share of the
+/// distance.
 const FALLS_TO: f64 = 0.8;
 
 /// A clock that runs at the wrong rate.

@@ -1,4 +1,4 @@
-//! Judges recordings of people, and twins of them that no person could make: `cargo xtask twins [--only NAME]`.
+//! Twins of recordings that no person could make.
 //!
 //! A recording is analysed, and its coordinates and ground forces are then changed:
 //!
@@ -10,11 +10,9 @@
 //! | `torque`    | a device works against both knees with 5 N.m/kg, more than twice what a knee can supply           |
 //!
 //! Every recording should be feasible or not judged, every twin infeasible. Only recordings that are called feasible
-//! have twins; those that are refused or not judged are listed. `--only` takes the recordings whose name contains a
-//! text.
+//! have twins; those that are refused or not judged are listed.
 
 use crate::validate::recording::{Recording, all};
-use crate::workspace;
 use ambulo::analysis::activity::ActivityKind;
 use ambulo::analysis::feasibility::{Reason, Verdict, VerdictState};
 use ambulo::findings::Findings;
@@ -62,20 +60,10 @@ type Named = (String, Result<Source, String>);
 
 /// Runs all recordings and their twins and prints the shares.
 #[expect(clippy::print_stdout, reason = "the answer of the command")]
-pub(crate) fn run(words: &[String]) -> Result<(), String> {
-    let only = match words {
-        [] => "",
-        [option, name] if option == "--only" => name.as_str(),
-        _ => return Err("expected `cargo xtask twins [--only NAME]`".to_owned()),
-    };
-    let data = workspace::data().join("data");
-    if !data.is_dir() {
-        println!("skipped: no data");
-        return Ok(());
-    }
+pub(super) fn run(data: &Path, only: &str) -> Result<(), String> {
     let mut counts = [[0; 2]; Change::ALL.len()];
     let (mut feasible, mut infeasible, mut others) = (0, 0, 0);
-    for (name, source) in sources(&data)?.into_iter().filter(|(name, _)| name.contains(only)) {
+    for (name, source) in sources(data)?.into_iter().filter(|(name, _)| name.contains(only)) {
         let outcome = match source.and_then(|source| analysed(&source, &Settings::default())) {
             Ok(outcome) => outcome,
             Err(why) => {

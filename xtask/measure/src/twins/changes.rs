@@ -1,0 +1,223 @@
+//! The changes that spoil a recording.
+
+use super::spoiled::Trial;
+use ambulo_formats::c3d::{C3d, Channel, Platform, Point};
+use std::collections::BTreeMap;
+
+type Position = [f64; 3];
+
+/// The last plate shows what it showed in the first sample.
+pub(super) fn plate_silent(trial: &mut Trial) -> Option<()> {
+    let plate = trial.moving.platforms().ok()?.pop()?;
+    for index in plate.channels.into_iter().flatten() {
+        let samples = &mut trial.moving.channels.get_mut(index)?.samples;
+        let first = *samples.first()?;
+        samples.fill(first);
+    }
+    Some(())
+}
+
+/// All channels this much later [s].
+pub(super) fn delayed(trial: &mut Trial, delay_s: f64) -> Option<()> {
+    let shift = (delay_s.abs() * trial.moving.analog_rate_hz).round() as usize;
+    for Channel { samples, .. } in &mut trial.moving.channels {
+        let (first, last, count) = (*samples.first()?, *samples.last()?, samples.len());
+        let shift = shift.min(count);
+        if delay_s > 0.0 {
+            samples.rotate_right(shift);
+            samples[..shift].fill(first);
+        } else {
+            samples.rotate_left(shift);
+            samples[count - shift..].fill(last);
+        }
+    }
+    Some(())
+}
+
+/// All markers show an earlier frame.
+pub(super) fn held(trial: &mut Trial, shown: fn(usize) -> usize) -> Option<()> {
+    for point in &mut trial.moving.points {
+        let whole = point.clone();
+        for frame in 0..whole.positions.len() {
+            point.positions[frame] = whole.positions[shown(frame)];
+            point.residuals[frame] = whole.residuals[shown(frame)];
+        }
+    }
+    Some(())
+}
+
+/// All markers stand still from the middle of the walk on.
+pub(super) fn frozen(trial: &mut Trial) -> Option<()> {
+    let half = trial.moving.frames() / 2;
+    for Point { positions, residuals, .. } in &mut trial.moving.points {
+        let (position, residual) = (positions[half], residuals[half]);
+        positions[half..].fill(position);
+        residuals[half..].fill(residual);
+    }
+    Some(())
+}
+
+/// The file states rates that are this many times too high.
+pub(super) fn clock(trial: &mut Trial, factor: f64) -> Option<()> {
+    let file = &mut trial.moving;
+    file.point_rate_hz *= factor;
+    file.analog_rate_hz *= factor;
+    Some(())
+}
+
+/// The corners of all plates in another order.
+pub(super) fn corners(trial: &mut Trial, order: fn([Position; 4]) -> [Position; 4]) -> Option<()> {
+    each_platform(&mut trial.moving, |plate| plate.corners = order(plate.corners))
+}
+
+fn each_platform(file: &mut C3d, change: impl FnMut(&mut Platform)) -> Option<()> {
+    let mut platforms = file.platforms().ok().filter(|platforms| !platforms.is_empty())?;
+    platforms.iter_mut().for_each(change);
+    file.set_platforms(&platforms);
+    Some(())
+}
+
+/// All channels of plates that measure forces and moments, times a factor.
+pub(super) fn scaled(trial: &mut Trial, factor: f64) -> Option<()> {
+    let platforms = trial.moving.platforms().ok()?;
+    let channels: Vec<usize> = platforms.iter().flat_map(|plate| plate.channels.iter().copied().flatten()).collect();
+    let is_volt = |index: &usize| trial.moving.channels.get(*index).is_none_or(|channel| channel.unit.starts_with('V'));
+    if channels.is_empty() || channels.iter().any(is_volt) {
+        return None;
+    }
+    for index in channels {
+        trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample *= factor);
+    }
+    Some(())
+}
+
+/// A horizontal force of all plates with the wrong sign: along the walk, or across it.
+pub(super) fn mirrored_force(trial: &mut Trial, is_along: bool) -> Option<()> {
+    let walks_along = walked_axis(&trial.moving)?;
+    for plate in trial.moving.platforms().ok()?.iter().filter(|plate| matches!(plate.kind, 2 | 4)) {
+        let [a, b, ..] = plate.corners;
+        let x_axis = usize::from((a[1] - b[1]).abs() > (a[0] - b[0]).abs());
+        let number = usize::from((x_axis == walks_along) != is_along);
+        let index = (*plate.channels.get(number)?)?;
+        trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample = -*sample);
+    }
+    Some(())
+}
+
+/// The axis of the laboratory, 0 or 1, along which the markers travel most.
+fn walked_axis(file: &C3d) -> Option<usize> {
+    let way = |axis: usize| {
+        let travelled = |point: &Point| {
+            let mut seen =
+                point.positions.iter().filter(|place| place.iter().all(|value| value.is_finite() && value.abs() > 0.0));
+            Some((seen.next_back()?[axis] - seen.next()?[axis]).abs())
+        };
+        let mut ways: Vec<f64> = file.points.iter().filter_map(travelled).collect();
+        ways.sort_by(f64::total_cmp);
+        ways.get(ways.len() / 2).copied()
+    };
+    Some(usize::from(way(1)? > way(0)?))
+}
+
+/// All labels of the left side on the right one, and the other way round.
+pub(super) fn exchanged(file: &mut C3d) -> Option<()> {
+    let names: Vec<String> = file.points.iter().map(|point| point.name.clone()).collect();
+    let mut count = 0;
+    for point in &mut file.points {
+        if let Some(other) = mirror(&point.name).filter(|other| names.contains(other)) {
+            point.name = other;
+            count += 1;
+        }
+    }
+    (count > 0).then_some(())
+}
+
+/// The same name on the other side.
+fn mirror(name: &str) -> Option<String> {
+    let (prefix, label) = name.rsplit_once(':').map_or(("", name), |(prefix, _)| name.split_at(prefix.len() + 1));
+    let swapped = match label.as_bytes().first()? {
+        b'L' => 'R',
+        b'R' => 'L',
+        b'l' => 'r',
+        b'r' => 'l',
+        _ => return None,
+    };
+    Some(format!("{prefix}{swapped}{}", &label[1..]))
+}
+
+/// Left-handed axes: the coordinate across the walk with the other sign, in markers and corners of both files.
+pub(super) fn left_handed(trial: &mut Trial) -> Option<()> {
+    let axis = 1 - walked_axis(&trial.moving)?;
+    for file in trial.standing.iter_mut().chain([&mut trial.moving]) {
+        for point in &mut file.points {
+            point.positions.iter_mut().for_each(|position| position[axis] = -position[axis]);
+        }
+    }
+    each_platform(&mut trial.moving, |plate| plate.corners.iter_mut().for_each(|corner| corner[axis] = -corner[axis]))
+}
+
+/// The first of these markers that is there, exchanged with its counterpart in the whole walk.
+pub(super) fn pair(trial: &mut Trial, lefts: &[&str]) -> Option<()> {
+    let points = &mut trial.moving.points;
+    let place = |name: &str, points: &[Point]| points.iter().position(|point| bare(&point.name) == name);
+    let left = lefts.iter().find_map(|name| place(name, points))?;
+    let right = place(bare(&mirror(&points[left].name)?), points)?;
+    let name = std::mem::take(&mut points[left].name);
+    points[left].name = std::mem::replace(&mut points[right].name, name);
+    Some(())
+}
+
+fn bare(name: &str) -> &str {
+    name.rsplit_once(':').map_or(name, |(_, label)| label)
+}
+
+/// The knee marker of one leg sits 40 mm elsewhere in the walk: away from the shank's other markers, along the thigh.
+pub(super) fn moved(trial: &mut Trial, knees: &[&str], ankles: &[&str]) -> Option<()> {
+    trial.standing.as_ref()?;
+    let units = 40.0 * 1e-3 / trial.moving.metres_per_unit()?;
+    let of = |names: &[&str]| trial.moving.points.iter().position(|point| names.contains(&bare(&point.name)));
+    let (knee, ankle) = (of(knees)?, of(ankles)?);
+    let away = trial.moving.points[ankle].positions.clone();
+    for (position, ankle) in trial.moving.points[knee].positions.iter_mut().zip(away) {
+        let way = [0, 1, 2].map(|axis| position[axis] - ankle[axis]);
+        let length = way.iter().map(|part| part * part).sum::<f64>().sqrt();
+        for (value, part) in position.iter_mut().zip(way) {
+            *value += units * part / length;
+        }
+    }
+    Some(())
+}
+
+/// Somebody else's standing trial with the same markers.
+pub(super) fn other_stands(trial: &mut Trial) -> Option<()> {
+    trial.standing.as_ref()?;
+    trial.standing = Some(trial.other.standing.clone()?);
+    Some(())
+}
+
+/// Another person's walk beside this one's.
+pub(super) fn two_people(trial: &mut Trial) -> Option<()> {
+    let (frames, other) = (trial.moving.frames(), trial.other.moving.clone());
+    if trial.moving.point_unit != other.point_unit {
+        return None;
+    }
+    for point in &mut trial.moving.points {
+        point.name = format!("Anna:{}", bare(&point.name));
+    }
+    let side_m = 2.0 / other.metres_per_unit()?;
+    let beside = |position: &Position| [position[0] + side_m, position[1] + side_m, position[2]];
+    let other_points: BTreeMap<_, _> = other.points.iter().map(|point| (bare(&point.name), point)).collect();
+    for (name, point) in other_points {
+        let last = point.positions.last()?;
+        let shown = |frame: usize| beside(point.positions.get(frame).unwrap_or(last));
+        trial.moving.points.push(Point::new(&format!("Berta:{name}"), (0..frames).map(shown).collect()));
+    }
+    Some(())
+}
+
+/// The first of these markers that is there is taken away.
+pub(super) fn without(file: &mut C3d, names: &[&str]) -> Option<()> {
+    let index = file.points.iter().position(|point| names.contains(&bare(&point.name)))?;
+    file.points.remove(index);
+    Some(())
+}
