@@ -116,17 +116,7 @@ pub(crate) fn fit_body_to_markers(
     let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
     let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
     let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let (mut fit, followed, keypoints) = match keypoints {
-        Some(keypoints) => {
-            let FollowedKeypoints { fit, smooth, report } =
-                fit_keypoints(&subject.model, keypoints, &settings, findings)?;
-            (fit, smooth, Some(report))
-        }
-        None => {
-            let (fit, followed) = fit_own_markers(&subject.model, markers, &settings, findings)?;
-            (fit, followed, None)
-        }
-    };
+    let (mut fit, followed, keypoints) = fit_points(&subject.model, markers, keypoints, &settings, findings)?;
     if let (Some(standing), None) = (&standing, &keypoints) {
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
@@ -138,6 +128,22 @@ pub(crate) fn fit_body_to_markers(
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet };
     Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+}
+
+/// The fit of the markers, or of the keypoints if these points are keypoints; with the points that the body follows.
+fn fit_points(
+    model: &Model,
+    markers: MarkerRecording,
+    keypoints: Option<Keypoints>,
+    settings: &FitSettings,
+    findings: &mut Findings,
+) -> Result<(MarkerFit, MarkerRecording, Option<KeypointReport>), MarkerTrialError> {
+    let Some(keypoints) = keypoints else {
+        let (fit, followed) = fit_own_markers(model, markers, settings, findings)?;
+        return Ok((fit, followed, None));
+    };
+    let FollowedKeypoints { fit, smooth, report } = fit_keypoints(model, keypoints, settings, findings)?;
+    Ok((fit, smooth, Some(report)))
 }
 
 /// The laboratory around a body whose motion is known.

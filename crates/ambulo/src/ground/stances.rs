@@ -187,7 +187,7 @@ impl MeasuredMotion<'_> {
             let of_parts = parts.iter().filter(overlaps).map(|part| part.span);
             let lacks = forces.as_ref().is_some_and(|forces| self.lacks(span, forces));
             let union = of_parts.fold(span, |[a, b], part| [a.min(part[0]), b.max(part[1])]);
-            (lacks || union != span).then_some(Missing { side, span: union })
+            (lacks || union[0] < span[0] || union[1] > span[1]).then_some(Missing { side, span: union })
         });
         let missing = missing.collect();
         let measured =

@@ -31,8 +31,7 @@ use crate::motion::force_plate::{ForceUnit, PlateRecording, stepped_weight};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, SubjectParameters, Window, smooth};
 use crate::numerics::median;
-use crate::spatial::STANDARD_GRAVITY;
-use crate::spatial::Vec3;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
 
@@ -119,8 +118,7 @@ impl Observation {
         self.model = self.model.scaled(&factors, Some(kg)).map_err(StudyError::Size)?;
         self.person.mass_kg *= kg / own_kg;
         let message = format!(
-            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and \
-             inertias of \
+            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and inertias of \
              the model were multiplied by {:.3}",
             kg / own_kg
         );
@@ -295,8 +293,7 @@ impl Statements {
         let known_mass = KnownMass::stated(self.stated.mass_kg);
         let has_models_mass =
             matches!(origin, Origin::Coordinates) && self.stated.mass_kg.is_none() && self.added_mass.is_empty();
-        let device = self.device;
-        let is_from_plates = false;
+        let (device, is_from_plates) = (self.device, false);
         let observation =
             Observation { person, model, forces, idle, origin, is_from_plates, known_mass, device, has_models_mass };
         Ok((observation, ObservedMotion::Recorded(motion)))
@@ -551,8 +548,7 @@ impl MarkerSource {
         Ok(recording)
     }
 
-    /// The markers with plates in the unit that a stated or standing mass shows, where the unit of the file cannot be
-    /// right.
+    /// The markers with plates in the unit that a stated or standing mass shows, where the unit of the file cannot be right.
     fn with_plates_in_newtons(mut self, known: &KnownMass, findings: &mut Findings) -> MarkerSource {
         let weight_n = known.stated.as_ref().or(known.standing.as_ref()).map(|mass| mass.kg * STANDARD_GRAVITY);
         let plates = &mut self.trial.recording.plates;
