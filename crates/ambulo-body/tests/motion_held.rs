@@ -42,7 +42,8 @@ fn released(mut recording: MarkerRecording) -> (MarkerRecording, usize, String) 
 
 #[test]
 fn repeated_frames_are_gaps_and_named_by_what_they_look_like() {
-    let cases: [(fn(usize) -> usize, usize, &str); 4] = [
+    type Shown = fn(usize) -> usize;
+    let cases: [(Shown, usize, &str); 4] = [
         (|frame| frame / 2 * 2, 100, "every second frame"),
         (|frame| frame / 5 * 5, 160, "20 frames per second that were held as 100"),
         (|frame| frame.min(120), 79, "frozen from 1.200 s on"),

@@ -290,15 +290,8 @@ pub fn output_files<'a>(
     files_of(model, analysis, device, &None, keep)
 }
 
-/// A table that marks the sources of the loads.
-fn marked<'a>(
-    name: &str,
-    sources: &LoadSources,
-    make: impl Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Send + Sync + 'a,
-) -> OutputFile<'a> {
-    let sources = sources.clone();
-    OutputFile::storage_by(name, move || make(&sources))
-}
+/// Makes the rows of a table that has no word for missing, with the sources of the loads.
+type Marked<'a> = Box<dyn Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Send + Sync + 'a>;
 
 /// As [`output_files`], with the sources of the loads in tables that have no word for missing.
 pub(crate) fn files_of<'a>(
@@ -308,18 +301,22 @@ pub(crate) fn files_of<'a>(
     sources: &LoadSources,
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
+    let marked = |name: &str, make: Marked<'a>| {
+        let sources = sources.clone();
+        OutputFile::storage_by(name, move || make(&sources))
+    };
     let mut files = vec![
         OutputFile::storage_by(KINEMATICS, || tables::kinematics(model, analysis)),
-        marked(MOMENTS, sources, |sources| tables::moments(model, analysis, None, sources)),
-        marked(POWERS, sources, |sources| tables::powers(model, analysis, sources)),
-        marked(REACTIONS, sources, |sources| tables::reactions(model, analysis, sources)),
+        marked(MOMENTS, Box::new(|sources| tables::moments(model, analysis, None, sources))),
+        marked(POWERS, Box::new(|sources| tables::powers(model, analysis, sources))),
+        marked(REACTIONS, Box::new(|sources| tables::reactions(model, analysis, sources))),
     ];
     if device.is_some() {
         let make = move |sources: &LoadSources| tables::moments(model, analysis, device, sources);
-        files.push(marked(MOMENTS_BIOLOGICAL, sources, make));
+        files.push(marked(MOMENTS_BIOLOGICAL, Box::new(make)));
     }
     if !analysis.ground.bodies.is_empty() {
-        files.push(marked(GROUND, sources, |sources| tables::ground(model, analysis, sources)));
+        files.push(marked(GROUND, Box::new(|sources| tables::ground(model, analysis, sources))));
         files.push(OutputFile::new(EXTERNAL_LOADS, tables::external_loads(model, analysis).write()));
         files.push(OutputFile::events(&analysis.events)?);
     }

@@ -90,7 +90,11 @@ fn a_trial_on_plates_corrects_the_other_trials_of_the_person() {
     let mut bad = raw.clone();
     bad.quality.state = QualityState::Bad;
     assert!(matches!(second_is(bad), CalibrationError::BadTrial { trial: 1, .. }));
-    let named = |name: &str| Outcome { subject: Some(checksum(name)), ..raw.clone() };
+    let named = |name: &str| {
+        let mut outcome = raw.clone();
+        outcome.subject = Some(checksum(name));
+        outcome
+    };
     let others = personal_errors(&[named("anna"), named("berta")]).unwrap_err();
     assert_eq!(others, CalibrationError::OtherName { trial: 1 });
     assert!(!person.is_unusual(), "{}", person.excess);

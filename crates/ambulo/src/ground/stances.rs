@@ -184,10 +184,10 @@ impl MeasuredMotion<'_> {
         let missing = self.falls().filter(|(side, span)| !is_covered(*side, *span, whole.iter().copied()));
         let missing = missing.filter_map(|(side, span)| {
             let overlaps = |part: &&&LoadedTime| part.side == side && overlap_s(part.span, span) > 0.0;
-            let of_parts: Vec<[f64; 2]> = parts.iter().filter(overlaps).map(|part| part.span).collect();
+            let of_parts = parts.iter().filter(overlaps).map(|part| part.span);
             let lacks = forces.as_ref().is_some_and(|forces| self.lacks(span, forces));
-            let union = of_parts.iter().fold(span, |[a, b], part| [a.min(part[0]), b.max(part[1])]);
-            (lacks || !of_parts.is_empty()).then_some(Missing { side, span: union })
+            let union = of_parts.fold(span, |[a, b], part| [a.min(part[0]), b.max(part[1])]);
+            (lacks || union[0] < span[0] || union[1] > span[1]).then_some(Missing { side, span: union })
         });
         let missing = missing.collect();
         let measured =

@@ -52,7 +52,7 @@ impl Job {
             let what = format!("found a longest gap of {} s; expected zero or more", settings.longest_gap_s);
             return Err(JobError::new(&[Field::Gap], what));
         }
-        if !(settings.force_delay_s.abs() <= LONGEST_DELAY_S) {
+        if !(-LONGEST_DELAY_S..=LONGEST_DELAY_S).contains(&settings.force_delay_s) {
             let what = format!(
                 "found a force delay of {} s; expected at most {LONGEST_DELAY_S} s, late or early (negative)",
                 settings.force_delay_s

@@ -44,7 +44,8 @@ pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findin
             false => "markers may be misplaced or exchanged",
         };
         let message = format!(
-            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} are no results. hint: \
+            "not measured: {}; clinical tables and scores leave them out, and powers of {of_joints} are no results. \
+             hint: \
              {cause}",
             listed.join(", ")
         );

@@ -31,8 +31,7 @@ use crate::motion::force_plate::{ForceUnit, PlateRecording, stepped_weight};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{Event, ForceRecording, Motion, SmoothSettings, SubjectParameters, Window, smooth};
 use crate::numerics::median;
-use crate::spatial::STANDARD_GRAVITY;
-use crate::spatial::Vec3;
+use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
 
@@ -295,8 +294,7 @@ impl Statements {
         let known_mass = KnownMass::stated(self.stated.mass_kg);
         let has_models_mass =
             matches!(origin, Origin::Coordinates) && self.stated.mass_kg.is_none() && self.added_mass.is_empty();
-        let device = self.device;
-        let is_from_plates = false;
+        let (device, is_from_plates) = (self.device, false);
         let observation =
             Observation { person, model, forces, idle, origin, is_from_plates, known_mass, device, has_models_mass };
         Ok((observation, ObservedMotion::Recorded(motion)))

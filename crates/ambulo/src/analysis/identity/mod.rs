@@ -37,8 +37,8 @@ pub(super) type Contradictions = Vec<String>;
 
 /// Reports a standing trial that is not that of the person of a motion, or whose markers are not those of the motion.
 ///
-/// One or two markers that moved change the lengths of limbs too, so that these are asked only where they differ so much,
-/// or where no single marker explains it.
+/// One or two markers that moved change the lengths of limbs too, so that these are asked only where they differ so
+/// much, or where no single marker explains it.
 pub(super) fn report_standing_trial(
     [moving, standing]: [&MarkerRecording; 2],
     moved: &[String],

@@ -1,17 +1,17 @@
 //! Markers that moved between the standing trial and the motion.
 //!
-//! The body of the standing trial is fitted to frames of the motion with the markers of pelvis and legs, once with all of
-//! them and once without each. A marker that moved by d is then d from its place on the body, while the others come
-//! nearer to theirs. With r the mean distance in the axes of the segment, with all markers, and r₀ that without this one,
-//! the sum of squares of the fit falls by r · r₀ (least squares; Cook and Weisberg 1982, unverified), so that
+//! The body of the standing trial is fitted to frames of the motion with the markers of pelvis and legs, once with all
+//! of them and once without each. A marker that moved by d is then d from its place on the body, while the others come
+//! nearer to theirs. With r the mean distance in the axes of the segment, with all markers, and r₀ that without this
+//! one, the sum of squares of the fit falls by r · r₀ (least squares; Cook and Weisberg 1982, unverified), so that
 //!
 //!   d = |r₀| > [`MOVED_M`]    and    √(r · r₀) > [`CONTRADICTED_M`]
 //!
 //! with [`MOVED_SKIN_M`] for markers of the pelvis, where soft tissue lies under the skin, and for those that show no
 //! joint.
 //!
-//! A distance along a limb changes by d; one across it only in the second order, which is why the whole body is asked and
-//! not distances alone.
+//! A distance along a limb changes by d; one across it only in the second order, which is why the whole body is asked
+//! and not distances alone.
 
 use super::super::subject::Subject;
 use super::Contradictions;

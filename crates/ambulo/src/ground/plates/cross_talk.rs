@@ -108,7 +108,7 @@ fn spans(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, highe
 fn report(plate: &PlateRecording, spans: &[[usize; 2]], findings: &mut Findings) {
     let samples = || spans.iter().flat_map(|[first, end]| *first..*end).filter(|i| plate.is_loaded(*i));
     let most = samples().map(|i| plate.vertical(i)).fold(0.0, f64::max);
-    let (first, last) = (samples().next().unwrap_or(0), samples().last().unwrap_or(0));
+    let (first, last) = (samples().next().unwrap_or(0), samples().next_back().unwrap_or(0));
     let message = format!(
         "{} shows up to {most:.0} N between {:.3} and {:.3} s while another plate is loaded and no foot stands on it: \
          cross-talk; it was removed",
