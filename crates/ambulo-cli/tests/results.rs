@@ -238,7 +238,7 @@ fn a_mass_carried_on_the_torso_loads_the_back_and_the_root_and_no_leg() {
     let carried = ["--add-mass", "torso:10:-0.15,0.3,0", "-o", "carried"];
     bench.forces(&[&RAW[..], &carried].concat()).done();
     let strength_of = |folder: &str| {
-        let summary: serde_json::Value = serde_json::from_str(&bench.text(&format!("{folder}/summary.json"))).unwrap();
+        let summary: Value = serde_json::from_str(&bench.text(&format!("{folder}/summary.json"))).unwrap();
         summary["verdict"]["mass_kg"].as_f64().unwrap()
     };
     assert!((strength_of("carried") - strength_of("out")).abs() < 1e-9, "a load makes nobody stronger");

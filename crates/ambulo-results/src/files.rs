@@ -290,6 +290,9 @@ pub fn output_files<'a>(
     files_of(model, analysis, device, &None, keep)
 }
 
+/// Makes the rows of a table that has no word for missing, with the sources of the loads.
+type Marked<'a> = Box<dyn Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Send + Sync + 'a>;
+
 /// As [`output_files`], with the sources of the loads in tables that have no word for missing.
 pub(crate) fn files_of<'a>(
     model: &'a Model,
@@ -298,7 +301,7 @@ pub(crate) fn files_of<'a>(
     sources: &LoadSources,
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
-    let marked = |name: &str, make: Box<dyn Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Send + Sync + 'a>| {
+    let marked = |name: &str, make: Marked<'a>| {
         let sources = sources.clone();
         OutputFile::storage_by(name, move || make(&sources))
     };

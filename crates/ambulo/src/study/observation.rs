@@ -118,7 +118,8 @@ impl Observation {
         self.model = self.model.scaled(&factors, Some(kg)).map_err(StudyError::Size)?;
         self.person.mass_kg *= kg / own_kg;
         let message = format!(
-            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and inertias of \
+            "the model has {own_kg:.1} kg, the force plates carry {kg:.1} kg, and no mass is stated: masses and \
+             inertias of \
              the model were multiplied by {:.3}",
             kg / own_kg
         );
@@ -548,7 +549,8 @@ impl MarkerSource {
         Ok(recording)
     }
 
-    /// The markers with plates in the unit that a stated or standing mass shows, where the unit of the file cannot be right.
+    /// The markers with plates in the unit that a stated or standing mass shows, where the unit of the file cannot be
+    /// right.
     fn with_plates_in_newtons(mut self, known: &KnownMass, findings: &mut Findings) -> MarkerSource {
         let weight_n = known.stated.as_ref().or(known.standing.as_ref()).map(|mass| mass.kg * STANDARD_GRAVITY);
         let plates = &mut self.trial.recording.plates;
