@@ -119,6 +119,8 @@ export interface Processing {
   cutoff?: number | string | null;
   /** Low-pass of the measured forces; `None` chooses it by the movement and the way in which ground forces are found. */
   force_cutoff?: number | string | null;
+  /** By how much the measured forces were recorded late against the motion [s]: they are moved to earlier times by it; negative for forces that are early. */
+  force_delay_s?: number;
   /** Order of one pass of the Butterworth filters. */
   order?: number;
   /** What residual reduction may change; `None` changes nothing. */

@@ -79,7 +79,7 @@ fn scenes_and_options_that_cannot_be_tuned_are_refused_before_anything_is_comput
         (&["scene.toml", "--gains", "height,height"], "found `height` twice"),
         (&["scene.toml", "-o", "old.toml"], "old.toml: this file already exists"),
         (&["scene.toml", "-o", "scene.toml", "--force"], "scene.toml: this input file would be overwritten"),
-        (&["scene.toml", "--resume", "-o", "old.toml"], "old.state.json: there is no such file"),
+        (&["scene.toml", "--resume", "-o", "old.toml"], "old.toml: this file already exists"),
         (&["no.toml"], "no.toml: there is no such file"),
         (&["scene.toml", "--push", "nan"], "expected a force from 1 to 10000 N"),
         (&["scene.toml", "--push", "1e308"], "expected a force from 1 to 10000 N"),

@@ -528,14 +528,6 @@ fn a_record_whose_length_is_in_the_other_byte_order_is_read_and_named() {
     assert_eq!(remarks.len(), none.len() + 1, "{remarks:?}");
     let said = remarks.iter().find(|remark| remark.contains("`TEXT`")).unwrap();
     assert!(said.contains(&format!("states {} bytes and has {offset}", offset.swap_bytes())), "{said}");
-    // Numbers of the record are in the order in which they are usual, the other one if both are.
-    let numbers = |values: [i16; 2], bytes: fn(i16) -> [u8; 2]| {
-        let body = [&[2, 1, 2][..], &values.map(bytes).concat(), &[0]].concat();
-        let (record, _) = with((body.len() as u16 + 2).swap_bytes(), &body);
-        record.parameters.get("MADE", "TEXT").unwrap().numbers().unwrap().to_vec()
-    };
-    assert_eq!(numbers([3, 7], i16::to_le_bytes), [3.0, 7.0]);
-    assert_eq!(numbers([3, 7], i16::to_be_bytes), [3.0, 7.0]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Force plates whose corners, signs or loads are wrong in the file, in a walk whose steps are known.
 
-use crate::marker_walk::{Load, place, plate, stances, walk};
+use crate::marker_walk::{Load, SPEED_M_S, place, plate, stances, walk};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::foot_motion::foot_motion;
 use ambulo::ground::plates::{ContactQuality, feet_on_plates, plates_under_feet};
@@ -12,16 +12,26 @@ use ambulo::spatial::Vec3;
 const R: Side = Side::Right;
 const L: Side = Side::Left;
 
+/// The plate with forces that lead from the centre of pressure to the middle of the pelvis, as those of a walk.
+fn through_the_pelvis(mut plate: PlateRecording) -> PlateRecording {
+    for i in 0..plate.times.len() {
+        if plate.is_loaded(i) {
+            let (pressure, vertical) = (plate.center_of_pressure(i), plate.vertical(i));
+            let arm = Vec3::new(SPEED_M_S * plate.times[i], 1.0, 0.0) - pressure;
+            plate.force[i] = arm * (vertical / arm.y);
+            plate.moment[i] = pressure.cross(&plate.force[i]);
+        }
+    }
+    plate
+}
+
 /// Two plates of 0.5 x 0.6 m, under the right foot's second stance and the left foot's that follows; the feet are not
 /// in their middle.
 fn two_plates() -> Vec<PlateRecording> {
     let under = |(name, side): (&str, Side)| {
         let p = place(side, 1);
-        let stance = [Load::whole(side, 1)];
-        PlateRecording {
-            name: name.to_owned(),
-            ..plate([p.x - 0.15, p.z - 0.4], [p.x + 0.35, p.z + 0.2], 0.0, &stance)
-        }
+        let made = plate([p.x - 0.15, p.z - 0.4], [p.x + 0.35, p.z + 0.2], 0.0, &[Load::whole(side, 1)]);
+        through_the_pelvis(PlateRecording { name: name.to_owned(), ..made })
     };
     [("plate 1", R), ("plate 2", L)].map(under).to_vec()
 }

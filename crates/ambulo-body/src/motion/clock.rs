@@ -98,8 +98,8 @@ fn numbered(
     stated_hz: f64,
     findings: &mut Findings,
 ) -> Option<Vec<f64>> {
-    let (first, last) = (*times.first()?, *times.last()?);
-    let is_still = times.len() > 1 && (last - first).abs() < 0.5 / stated_hz && first.is_finite();
+    let first = *times.first()?;
+    let is_still = times.len() > 1 && times.iter().all(|time| (time - first).abs() < 0.5 / stated_hz);
     if !is_still {
         return None;
     }
@@ -142,10 +142,11 @@ fn unrounded(name: &str, times: &[f64], stated_hz: Option<f64>, findings: &mut F
 /// of another length.
 fn alternates(times: &[f64], digit: f64) -> bool {
     const OFTEN: f64 = 0.03;
+    const FEWEST: usize = 12;
     let lengths: Vec<i64> = times.windows(2).map(|pair| ((pair[1] - pair[0]) / digit).round() as i64).collect();
     let (Some(least), Some(most)) = (lengths.iter().min(), lengths.iter().max()) else { return false };
     let share = |length: &i64| lengths.iter().filter(|other| *other == length).count() as f64 / lengths.len() as f64;
-    *least >= 0 && most - least == 1 && share(least).min(share(most)) > OFTEN
+    lengths.len() >= FEWEST && *least >= 0 && most - least == 1 && share(least).min(share(most)) > OFTEN
 }
 
 /// Whether times differ from an even clock by a share of a step that matters for velocities.

@@ -58,7 +58,8 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
 
 /// Refuses files that are in the way, before anything is computed.
 fn check_targets(args: &TuneArgs, state: &Path) -> Result<()> {
-    let existing = if args.resume { Existing::Replaced } else { args.replace.existing() };
+    let is_continued = args.resume && state.exists();
+    let existing = if is_continued { Existing::Replaced } else { args.replace.existing() };
     [&args.output, state]
         .into_iter()
         .try_for_each(|path| files::check_target(path, std::slice::from_ref(&args.scene), existing))

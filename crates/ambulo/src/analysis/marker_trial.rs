@@ -81,42 +81,26 @@ pub(crate) fn fit_body_to_markers(
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<BodyInMotion, MarkerTrialError> {
-    let MarkerTrial { trial, standing, bodies, body, plate_feet } = trial;
-    let set = body.marker_set();
-    for recording in [Some(*trial), *standing].into_iter().flatten() {
+    let set = trial.body.marker_set();
+    for recording in [Some(trial.trial), trial.standing].into_iter().flatten() {
         identity::refuse_several(&recording.markers)?;
     }
     let mut contradictions = Vec::new();
-    let trial = &*identity::with_right_labels(trial, "recording", set, &mut contradictions, findings);
-    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = body.turned(trial, findings);
+    let labelled = identity::with_right_labels(trial.trial, "recording", set, &mut contradictions, findings);
+    let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.body.turned(&labelled, findings);
     let markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     if let Some(poses) = poses {
-        let trial = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
-        return trial.followed(body, plate_feet, settings, findings, progress);
+        let posed = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
+        return posed.followed(&trial.body, trial.plate_feet, settings, findings, progress);
     }
     let keypoints = Keypoints::recognised(&markers, set);
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
-    let standing = standing.map(|standing| {
-        let standing = identity::with_right_labels(standing, "standing trial", set, &mut contradictions, findings);
-        let found = body.turned(&standing, findings).1.markers;
-        Keypoints::recognised(&found, set).map_or(found, |points| points.smooth)
-    });
-    let whole = standing.as_ref().and_then(|standing| body.completed(standing, moving, findings));
-    let calibrated =
-        |findings: &mut Findings| Subject::of_source(body, moving, whole.as_ref().or(standing.as_ref()), findings);
-    // A body that needs the motion besides the standing trial is not that of the other motions.
-    let subject = match (&standing, bodies) {
-        (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(body, findings, calibrated)?,
-        _ => calibrated(findings)?,
-    };
+    let standing = trial.standing_markers(&mut contradictions, findings);
+    let subject = trial.subject(moving, standing.as_ref(), findings)?;
     progress.end(Stage::Body)?;
-    // The author of a given model decides which coordinates are clamped; the built-in body needs its ranges to keep arm
-    // angles unique.
-    let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
-    let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
-    let settings = FitSettings { weights: weights.clone(), limits, ..settings.clone() };
-    let (mut fit, followed, keypoints) = fit_points(&subject.model, markers, keypoints, &settings, findings)?;
+    let settings = settings_of(&subject, settings);
+    let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
     if let (Some(standing), None) = (&standing, &keypoints) {
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
@@ -126,23 +110,57 @@ pub(crate) fn fit_body_to_markers(
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
-    let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet };
+    let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
     Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
 }
 
-/// The fit of the markers, or of the keypoints if these points are keypoints; with the points that the body follows.
-fn fit_points(
-    model: &Model,
-    markers: MarkerRecording,
-    keypoints: Option<Keypoints>,
+impl MarkerTrial<'_> {
+    /// The markers of the standing trial in world axes, with the labels of the person.
+    fn standing_markers(&self, contradictions: &mut Vec<String>, findings: &mut Findings) -> Option<MarkerRecording> {
+        let set = self.body.marker_set();
+        let standing = identity::with_right_labels(self.standing?, "standing trial", set, contradictions, findings);
+        let found = self.body.turned(&standing, findings).1.markers;
+        Some(Keypoints::recognised(&found, set).map_or(found, |points| points.smooth))
+    }
+
+    /// The body, from the standing trial, if there is one, with the markers that only the motion has.
+    fn subject(
+        &self,
+        moving: &MarkerRecording,
+        standing: Option<&MarkerRecording>,
+        findings: &mut Findings,
+    ) -> Result<Subject, MarkerTrialError> {
+        let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
+        let calibrated =
+            |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
+        // A body that needs the motion besides the standing trial is not that of the other motions.
+        match (standing, self.bodies) {
+            (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
+            _ => calibrated(findings),
+        }
+    }
+}
+
+/// The settings of the fit of a body. The author of a given model decides which coordinates are clamped; the built-in
+/// body needs its ranges to keep arm angles unique.
+fn settings_of(subject: &Subject, settings: &FitSettings) -> FitSettings {
+    let limits = if subject.calibration.is_some() { JointLimits::Ranges } else { settings.limits };
+    let weights = if subject.weights.is_empty() { &settings.weights } else { &subject.weights };
+    FitSettings { weights: weights.clone(), limits, ..settings.clone() }
+}
+
+/// The motion of a body that follows keypoints or markers, the points as it follows them, and the faults of keypoints.
+fn followed(
+    subject: &Subject,
+    (keypoints, markers): (Option<Keypoints>, MarkerRecording),
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<(MarkerFit, MarkerRecording, Option<KeypointReport>), MarkerTrialError> {
     let Some(keypoints) = keypoints else {
-        let (fit, followed) = fit_own_markers(model, markers, settings, findings)?;
+        let (fit, followed) = fit_own_markers(&subject.model, markers, settings, findings)?;
         return Ok((fit, followed, None));
     };
-    let FollowedKeypoints { fit, smooth, report } = fit_keypoints(model, keypoints, settings, findings)?;
+    let FollowedKeypoints { fit, smooth, report } = fit_keypoints(&subject.model, keypoints, settings, findings)?;
     Ok((fit, smooth, Some(report)))
 }
 

@@ -34,7 +34,7 @@ impl RecordingKind {
             "npz" => Ok(RecordingKind::Smpl),
             "b3d" => Ok(RecordingKind::Subject),
             other => {
-                let what = unknown(other, &read(files, input)?);
+                let what = unknown(other, &files.read(input).unwrap_or_default());
                 Err(JobError::new(&[Field::Recording], what).within(input.display().to_string()))
             }
         }
@@ -47,12 +47,11 @@ fn unknown(ending: &str, bytes: &[u8]) -> String {
         "" => "its name has no extension".to_owned(),
         other => format!("unknown kind of recording `.{}`", other.trim_end()),
     };
-    if let Some((content, remedy)) = content(bytes) {
-        return format!("{found}; the content is {content}. hint: {remedy}");
-    }
+    let content = content(bytes)
+        .map_or_else(String::new, |(content, remedy)| format!("; the content is {content}. hint: {remedy}"));
     format!(
         "{found}; expected .c3d, .trc or .csv (markers), .mvnx (Xsens), .mot, .sto or .csv (coordinates), .sto with \
          quaternions (sensors), _motion.tsv (BIDS), .bvh (a skeleton), .npz (a motion of the SMPL family) or .b3d (a \
-         subject of AddBiomechanics)"
+         subject of AddBiomechanics){content}"
     )
 }

@@ -75,7 +75,7 @@ impl Job {
 
     fn source(&self, reading: &mut Reading<'_>, shared: &Shared) -> Result<Source, JobError> {
         self.check_range()?;
-        size::check(self.size)?;
+        size::check(self.size).map_err(|error| error.within(self.shown()))?;
         reading.read.push(self.recording().to_owned());
         let kind = RecordingKind::of(self.recording(), reading.files)?;
         self.check_kind(kind, &reading.setups)?;

@@ -20,7 +20,7 @@
 //! | `expected` | e | N |
 //! | `agreement` | r | 1 |
 //!
-//! Pinned by: tests/force_directions.rs
+//! Pinned by: tests/quality.rs
 
 use super::observation::{Observation, Origin};
 use super::origin::ForceOrigin;

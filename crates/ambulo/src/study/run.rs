@@ -93,16 +93,7 @@ fn road(
     let device = device(&observed, findings)?;
     let recorded = recorded_faults(&observed.model, &motion);
     let processing = processing(&observed, recorded.is_none(), settings, findings);
-    let mut observed = observed;
-    let kept = observed.takes_weighed_mass().then(|| (motion.clone(), findings.clone()));
-    let mut found = forces(&observed, motion, processing, settings, findings, progress)?;
-    let mut mass = body_mass(&observed, &found.analysis, findings);
-    if let Some(((motion, before), kg)) = kept.zip(mass.in_place_of_the_models()) {
-        *findings = before;
-        observed.scale_to(kg, findings)?;
-        found = forces(&observed, motion, processing, settings, findings, progress)?;
-        mass = body_mass(&observed, &found.analysis, findings);
-    }
+    let (observed, found, mass) = weighed(observed, motion, processing, settings, findings, progress)?;
     let Found { analysis, prediction, measured_events, loads, processing } = found;
     let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
     let directions = ForceDirections::of(&observed, &analysis.trajectory);
@@ -140,6 +131,28 @@ fn road(
     report_sliding(&outcome, settings, findings);
     progress.end(Stage::Feasibility)?;
     Ok(outcome)
+}
+
+/// Forces and body mass; where force plates carry another mass than that of a given model, and none is stated, those of
+/// the model with the weighed mass.
+fn weighed(
+    mut observed: Observation,
+    motion: ObservedMotion,
+    processing: analysis::AnalysisSettings,
+    settings: &Settings,
+    findings: &mut Findings,
+    progress: &mut Progress<'_>,
+) -> Result<(Observation, Found, BodyMass), StudyError> {
+    let kept = observed.takes_weighed_mass().then(|| (motion.clone(), findings.clone()));
+    let mut found = forces(&observed, motion, processing, settings, findings, progress)?;
+    let mut mass = body_mass(&observed, &found.analysis, findings);
+    if let Some(((motion, before), kg)) = kept.zip(mass.in_place_of_the_models()) {
+        *findings = before;
+        observed.scale_to(kg, findings)?;
+        found = forces(&observed, motion, processing, settings, findings, progress)?;
+        mass = body_mass(&observed, &found.analysis, findings);
+    }
+    Ok((observed, found, mass))
 }
 
 /// Everything that was computed, before it is judged.

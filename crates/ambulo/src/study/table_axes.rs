@@ -4,7 +4,7 @@
 //! nine tenths of it is the vertical. If that is not y, the table has other axes; the direction about the vertical is
 //! the one with which the centres of pressure lie under the feet. The unit follows from the weight of a step
 //! ([`ForceUnit::of_steps`]), that of the moments from their lever: a foot is shorter than half a metre.
-//! Pinned by: tests/force_tables.rs
+//! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::findings::{Code, Findings};
 use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, FootPaths};

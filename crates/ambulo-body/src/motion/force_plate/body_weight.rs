@@ -6,7 +6,7 @@
 //! second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish newtons,
 //! kilonewtons and body weights.
 //!
-//! Pinned by: tests/force_units.rs
+//! Pinned by: tests/motion_body_weight.rs
 
 use crate::numerics::median;
 

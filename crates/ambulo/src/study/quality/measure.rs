@@ -120,7 +120,7 @@ impl Measure {
             Measure::UncheckedForces => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
-            Measure::ForceDirections => AtLeast(0.5, 0.5),
+            Measure::ForceDirections => AtLeast(0.6, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),

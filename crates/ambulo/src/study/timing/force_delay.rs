@@ -32,7 +32,7 @@ use crate::dynamics::{JointReaction, Roots};
 use crate::findings::{Code, Findings};
 use crate::ground::footfalls::footfalls;
 use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, TotalLoad};
-use crate::model::{Model, Side};
+use crate::model::Side;
 use crate::motion::EventKind;
 use crate::numerics::median;
 use crate::spatial::Wrench;
@@ -90,8 +90,8 @@ impl PlateTiming {
         let filter = settings.smoother.low_pass().or(settings.force_filter);
         let load = TotalLoad::new(model, &analysis.trajectory, forces, filter)?;
         let step_s = analysis.trajectory.grid().step_s;
-        let spans = measured_spans(observation, analysis);
-        let frames = compared(&needed, &spans, &load, step_s)?;
+        let within = |spans: Vec<[f64; 2]>| compared(&needed, &spans, &load, step_s);
+        let frames = within(instrumented(observation)).or_else(|| within(loaded_spans(observation, analysis)))?;
         let misfit = Misfit { roots: Roots::of(model), needed: &needed, frames, load };
         let found = misfit.least()?;
         let events_s = event_delay(observation, analysis);
@@ -199,21 +199,20 @@ fn compared(needed: &NeededWrenches, spans: &[[f64; 2]], load: &TotalLoad, step_
     Some(inside.into_iter().step_by(every).collect())
 }
 
-/// Times in which every foot on the ground is measured: the instrumented windows of force plates, or all of the motion
-/// without the stances during which a table shows no load [s].
-fn measured_spans(observation: &Observation, analysis: &Analysis) -> Vec<[f64; 2]> {
-    match observation.origin.followed() {
-        Some(followed) if !followed.body.on_plates.contacts.is_empty() => followed.body.on_plates.windows.clone(),
-        _ => loaded_spans(observation, analysis),
-    }
+/// Times in which every foot on the ground is on a plate that measures it [s]; none of a table of forces.
+fn instrumented(observation: &Observation) -> Vec<[f64; 2]> {
+    observation.origin.followed().map_or_else(Vec::new, |followed| followed.body.on_plates.windows.clone())
 }
 
-fn loaded_spans(Observation { model, person, .. }: &Observation, analysis: &Analysis) -> Vec<[f64; 2]> {
+/// All of the motion without the stances during most of which no load was recorded [s]: for tables of forces, and for
+/// plates that are so late that no foot seems to be measured completely.
+fn loaded_spans(observation: &Observation, analysis: &Analysis) -> Vec<[f64; 2]> {
+    let Observation { model, person, .. } = observation;
     let grid = analysis.trajectory.grid();
     let stances = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     let loaded = |side: Side, [from, to]: [f64; 2]| {
-        let inside: Vec<usize> = (0..grid.frames).filter(|i| (from..=to).contains(&grid.time(*i))).collect();
-        let carries = |i: &&usize| vertical_n(model, analysis, side, **i) > CENTER_OF_PRESSURE_LOAD_N;
+        let inside: Vec<f64> = grid.times().into_iter().filter(|time| (from..=to).contains(time)).collect();
+        let carries = |time: &&f64| vertical_n(observation, side, **time) > CENTER_OF_PRESSURE_LOAD_N;
         2 * inside.iter().filter(carries).count() >= inside.len()
     };
     let mut free = vec![[grid.start_s, grid.end_s()]];
@@ -227,9 +226,14 @@ fn loaded_spans(Observation { model, person, .. }: &Observation, analysis: &Anal
     free
 }
 
-fn vertical_n(model: &Model, analysis: &Analysis, side: Side, frame: usize) -> f64 {
-    let of_side = analysis.ground.bodies.iter().filter(|load| model.anatomy().body_side(load.body) == Some(side));
-    of_side.map(|load| load.force[frame].dot(&model.up())).sum()
+/// Recorded vertical force on a foot [N].
+fn vertical_n(Observation { model, forces, .. }: &Observation, side: Side, time_s: f64) -> f64 {
+    let of_side = forces.iter().filter(|force| model.anatomy().body_side(force.body) == Some(side));
+    let carried = of_side.filter_map(|force| {
+        let sample = force.times.partition_point(|time| *time < time_s);
+        Some(force.force.get(sample)?.dot(&model.up())).filter(|load| load.is_finite())
+    });
+    carried.sum()
 }
 
 /// Time from foot strikes and foot offs by the motion to those by the plates [s]: mean of the medians of both, whose
