@@ -129,6 +129,7 @@ fn a_marker_that_only_the_standing_trial_lacks_is_placed_by_the_walk() {
             println!("{} {lost:?}: ankle {ankle:.1}, knee {knee:.1} degrees", person.name);
             assert!(ankle < 3.0 && knee < 4.0, "{} {lost:?}: {ankle} {knee}", person.name);
             assert!(message(&findings, Code::CalibrationPlaced).contains(lost[0]));
+            assert!(!findings.has(Code::CalibrationOtherLimbs) && !findings.has(Code::MarkersMoved));
             assert!(found.not_measured.is_empty());
         }
     }

@@ -43,21 +43,25 @@ pub(crate) fn lengths(markers: &MarkerRecording, set: Option<&MarkerSet>) -> Vec
     };
     let of_pelvis = [middle("pelvis width".to_owned(), &width), middle("pelvis depth".to_owned(), &depth)];
     let of_legs = Side::BOTH.into_iter().flat_map(|side| {
-        let knee = |frame: usize| paths.first(&KNEES, side, frame);
-        let ankle = |frame: usize| paths.first(&ANKLES, side, frame);
+        // One landmark in all frames, and named, so that a toe is never compared with another.
+        let shown = |landmarks: &[Landmark]| {
+            let is_seen = |landmark: &&Landmark| paths.frames().any(|f| paths.at(**landmark, Some(side), f).is_some());
+            landmarks.iter().find(is_seen).copied()
+        };
+        let place = |landmark: Option<Landmark>, frame: usize| paths.at(landmark?, Some(side), frame);
+        let [knee, ankle, front] = [shown(&KNEES), shown(&ANKLES), shown(&FRONTS)];
         let hip = |frame: usize| {
             let [right, left] = hip_centres(asis(frame)?, paths.back_of_pelvis(frame)?)?;
             Some(if side == Side::Right { right } else { left })
         };
-        let thigh = |frame: usize| Some((hip(frame)? - knee(frame)?).norm());
-        let shank = |frame: usize| Some((knee(frame)? - ankle(frame)?).norm());
-        let heel = |frame: usize| paths.at(Landmark::Heel, Some(side), frame);
-        let foot = |frame: usize| Some((heel(frame)? - paths.first(&FRONTS, side, frame)?).norm());
-        [
-            middle(format!("{side} thigh"), &thigh),
-            middle(format!("{side} shank"), &shank),
-            middle(format!("{side} foot"), &foot),
-        ]
+        let thigh = |frame: usize| Some((hip(frame)? - place(knee, frame)?).norm());
+        let shank = |frame: usize| Some((place(knee, frame)? - place(ankle, frame)?).norm());
+        let foot = |frame: usize| Some((place(Some(Landmark::Heel), frame)? - place(front, frame)?).norm());
+        let name = |limb: &str, end: Option<Landmark>| {
+            let end = end.map_or(String::new(), |landmark| landmark.word().replace('_', " "));
+            format!("{side} {limb} (to the {end})")
+        };
+        [middle(name("thigh", knee), &thigh), middle(name("shank", ankle), &shank), middle(name("foot", front), &foot)]
     });
     of_pelvis.into_iter().chain(of_legs).flatten().collect()
 }
