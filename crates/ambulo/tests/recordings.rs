@@ -285,7 +285,7 @@ fn a_long_gap_and_missing_ends_are_errors_that_name_column_and_time() {
         values[from..to].fill(f64::NAN);
         smoothed(&recorded(clock(), values), Smoother::Off, Window::default()).0.unwrap_err().to_string()
     };
-    let expected = "expected gaps inside the recording of at most 0.2 s. hint: choose a range without the gap";
+    let expected = "expected gaps inside the recording of at most 0.2 s from sample to sample. hint: choose a range without the gap";
     assert_eq!(with(100, 125), format!("`pelvis_rx` has no number from 1.0000 s to 1.2400 s; {expected}"));
     assert_eq!(with(0, 3), format!("`pelvis_rx` has no number from 0.0000 s to 0.0200 s; {expected}"));
     assert_eq!(with(299, 301), format!("`pelvis_rx` has no number from 2.9900 s to 3.0000 s; {expected}"));
@@ -322,7 +322,10 @@ fn uneven_time_steps_are_resampled_and_reported() {
     let holed: Vec<f64> = clock().iter().map(|&t| if t > 1.0 { t + 0.5 } else { t }).collect();
     let values = holed.iter().map(|&t| wave(t)).collect();
     let text = smoothed(&recorded(holed, values), Smoother::Off, Window::default()).0.unwrap_err().to_string();
-    assert!(text.starts_with("`time` has no number from 1.0000 s to 1.5100 s"), "{text}");
+    assert!(
+        text.starts_with("there is no row between 1.0000 s and 1.5100 s; expected steps of at most 0.2 s"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -36,6 +36,8 @@ const MOVING_M_S: f64 = 0.3;
 const STEPS: f64 = 3.5;
 /// Another marker moves if it travels further than this while one is held [m].
 const TRAVELLED_M: f64 = 0.003;
+/// Fewer frames do not show how much the values usually change.
+const FEWEST_FRAMES: usize = 12;
 /// Frames that are repeated regularly: at least this share of the stretches has the most common length.
 const REGULAR: f64 = 0.7;
 /// Fewer stretches do not show a pattern.
@@ -95,6 +97,9 @@ fn held_frames(columns: &[&[f64]]) -> Vec<Range<usize>> {
     let moving: Vec<(&[f64], f64)> =
         columns.iter().copied().zip(ranges).filter(|(_, range)| *range > 0.0 && range.is_finite()).collect();
     let frames = columns.first().map_or(0, |column| column.len());
+    if frames < FEWEST_FRAMES {
+        return Vec::new();
+    }
     let changes: Vec<Option<f64>> = (1..frames).map(|frame| change(&moving, frame)).collect();
     let Some(usual) = median(changes.iter().flatten().copied()) else { return Vec::new() };
     let is_sudden = |pair: Option<usize>| {

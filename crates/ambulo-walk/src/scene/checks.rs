@@ -53,6 +53,7 @@ impl SceneChecks {
         let closing_s = if apart > 0.0 { apart / CLOSING_SPEED + SPARE_STEPS * step_s } else { 0.0 };
         let closed_s = state.time_s + closing_s;
         if let Some(closure) = added {
+            self.closed_from_s.resize(world.closures.len(), 0.0);
             self.closed_from_s[closure] = closed_s;
         }
         self.watch = None;
@@ -84,6 +85,7 @@ impl SceneChecks {
     }
 
     fn look_at_closures(&mut self, world: &World, state: &WorldState, findings: &mut Findings) {
+        self.closed_from_s.resize(world.closures.len(), 0.0);
         for (number, closure) in world.closures.iter().enumerate().filter(|(_, closure)| closure.active) {
             if state.time_s < self.closed_from_s[number] {
                 continue;
@@ -106,6 +108,10 @@ impl SceneChecks {
     }
 
     fn look_at_speeds(&mut self, world: &World, state: &WorldState, step_s: f64, findings: &mut Findings) {
+        // An event may have added some.
+        let known = self.half_sizes_m.len();
+        self.half_sizes_m.extend(world.surfaces.iter().skip(known).map(|surface| surface.shape.half_size()));
+        self.is_too_fast.resize(world.bodies.len(), false);
         for (number, surface) in world.surfaces.iter().enumerate() {
             let Owner::Body(body) = surface.owner else { continue };
             let way = state.twists[body].linear * step_s;
