@@ -330,7 +330,7 @@ fn other_files_are_rejected_by_their_extension() {
     let bench = laboratory("names");
     let kinds = "expected .c3d, .trc or .csv (markers)";
     forces(&bench, "-", &[]).refused(&["-: standard input is not read"]);
-    forces(&bench, ".", &[]).refused(&["this is a folder", "`ambulo batch`"]);
+    forces(&bench, ".", &[]).refused(&["this is a folder", "`ambulo batch .`"]);
     forces(&bench, "walk", &[]).refused(&["walk: its name has no extension", kinds]);
     forces(&bench, "walk.xyz", &[]).refused(&["unknown kind of recording `.xyz`", kinds]);
     forces(&bench, "none.c3d", &[]).refused(&["none.c3d: there is no such file", "hint: "]);
