@@ -43,6 +43,8 @@ export interface Job {
   trial?: number | string | null;
   /** The same person standing still. */
   standing?: string | null;
+  /** The person in recordings of several people: the prefix of the names of the markers. By default such recordings are refused. */
+  subject?: string | null;
   /** The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body. */
   model?: string | null;
   /** Markers for the model in a file of their own. */
