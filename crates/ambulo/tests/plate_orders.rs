@@ -26,11 +26,11 @@ fn through_the_pelvis(mut plate: PlateRecording) -> PlateRecording {
 }
 
 /// Two plates of 0.5 x 0.6 m, under the right foot's second stance and the left foot's that follows; the feet are not
-/// in their middle, nor on a diagonal, on which a mirrored order leaves them.
+/// in their middle, nor on its lines of symmetry, on which a mirrored order leaves them.
 fn two_plates() -> Vec<PlateRecording> {
     let under = |(name, side): (&str, Side)| {
         let p = place(side, 1);
-        let made = plate([p.x - 0.15, p.z - 0.34], [p.x + 0.35, p.z + 0.26], 0.0, &[Load::whole(side, 1)]);
+        let made = plate([p.x - 0.27, p.z - 0.35], [p.x + 0.23, p.z + 0.25], 0.0, &[Load::whole(side, 1)]);
         through_the_pelvis(PlateRecording { name: name.to_owned(), ..made })
     };
     [("plate 1", R), ("plate 2", L)].map(under).to_vec()

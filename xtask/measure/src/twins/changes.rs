@@ -6,9 +6,17 @@ use std::collections::BTreeMap;
 
 type Position = [f64; 3];
 
-/// The last plate shows what it showed in the first sample.
+/// The plate with the largest loads shows what it showed in the first sample.
 pub(super) fn plate_silent(trial: &mut Trial) -> Option<()> {
-    let plate = trial.moving.platforms().ok()?.pop()?;
+    let spread = |samples: &[f64]| {
+        samples.iter().copied().fold(f64::MIN, f64::max) - samples.iter().copied().fold(f64::MAX, f64::min)
+    };
+    let largest = |plate: &Platform| {
+        let channels = plate.channels.iter().flatten().filter_map(|index| trial.moving.channels.get(*index));
+        channels.map(|channel| spread(&channel.samples)).fold(0.0, f64::max)
+    };
+    let platforms = trial.moving.platforms().ok()?;
+    let plate = platforms.into_iter().max_by(|a, b| largest(a).total_cmp(&largest(b)))?;
     for index in plate.channels.into_iter().flatten() {
         let samples = &mut trial.moving.channels.get_mut(index)?.samples;
         let first = *samples.first()?;
