@@ -285,7 +285,8 @@ fn a_long_gap_and_missing_ends_are_errors_that_name_column_and_time() {
         values[from..to].fill(f64::NAN);
         smoothed(&recorded(clock(), values), Smoother::Off, Window::default()).0.unwrap_err().to_string()
     };
-    let expected = "expected gaps inside the recording of at most 0.2 s from sample to sample. hint: choose a range without the gap";
+    let expected = "expected gaps inside the recording of at most 0.2 s from sample to sample. hint: choose a range \
+                    without the gap";
     assert_eq!(with(100, 125), format!("`pelvis_rx` has no number from 1.0000 s to 1.2400 s; {expected}"));
     assert_eq!(with(0, 3), format!("`pelvis_rx` has no number from 0.0000 s to 0.0200 s; {expected}"));
     assert_eq!(with(299, 301), format!("`pelvis_rx` has no number from 2.9900 s to 3.0000 s; {expected}"));

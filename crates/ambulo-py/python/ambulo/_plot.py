@@ -79,8 +79,8 @@ def _strides(result: Result, side: str, *, depends_on_forces: bool) -> tuple[lis
     stances = result.stances
     if stances is None or not depends_on_forces:
         return strides, False
-    rows = zip(stances["side"], stances["start"], stances["end"], stances["source"], strict=True)
-    known = [(start, end, source) for of_side, start, end, source in rows if of_side == side]
+    listed = zip(stances["side"], stances["start"], stances["end"], stances["source"], strict=True)
+    known = [(start, end, source) for of_side, start, end, source in listed if of_side == side]
     sources = [_source(known, stride) for stride in strides]
     measured = [stride for stride, source in zip(strides, sources, strict=True) if source.startswith(("plate", "table"))]
     if measured:
