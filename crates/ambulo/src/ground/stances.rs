@@ -1,14 +1,14 @@
 //! The stances of both feet with the source of their loads, and ground forces that are complete.
 //!
 //! A laboratory has a few force plates, and the feet stand alongside them as well. A stance was **measured** if the
-//! load of its foot was measured for at least [`MEASURED_SHARE`] of it. A load that a plate measured in part (a foot
+//! load of its foot was measured for at least half of it. A load that a plate measured in part (a foot
 //! over its edge) counts if it carries the body alone: in single support the vertical force is then what Newton's law
 //! requires,
 //!
-//!   Σ F ≥ c Σ m (a + g)        c = [`CARRIED_SHARE`], over the frames in which the other foot is in the air
+//!   Σ F ≥ c Σ m (a + g)        c = 0.85, over the frames in which the other foot is in the air
 //!
 //! A stance that was not measured and in which the measured loads carry the body nevertheless is none: the foot
-//! touches the floor without a load. The others have **missing** loads; [`completed`] takes them from a prediction.
+//! touches the floor without a load. The others have **missing** loads; `completed` takes them from a prediction.
 //!
 //! | code        | symbol | unit | meaning                                                     |
 //! | `required`  | m(a+g) | N    | vertical force that the motion requires, one entry per frame |
