@@ -164,7 +164,7 @@ pub struct MovingLink {
 enum Follows {
     /// With a constant slope.
     Line(f64),
-    /// By a curve, after that of a coupler if the axis belongs to a coupled coordinate.
+    /// By a curve; if the axis belongs to a coupled coordinate, by the coupler first.
     Curve { coupler: Option<Function>, curve: Function },
 }
 
@@ -242,7 +242,7 @@ impl<const N: usize> DerivativeKernel<N> {
         DerivativeKernel::with(model, false)
     }
 
-    /// Coupled coordinates follow their leaders: forces and derivatives are those of the leaders. The values, rates and
+    /// Coupled coordinates follow their leaders: forces and derivatives belong to the leaders. The values, rates and
     /// accelerations in `scratch` must obey the couplers.
     pub fn with_couplers(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
         DerivativeKernel::with(model, true)

@@ -37,7 +37,7 @@ pub(super) struct LumpedGraph {
     first: Vec<usize>,
     /// From the mass centre of the first body to the common one [m].
     center: Vec<Vec3>,
-    /// From the common mass centre to that of each body [m].
+    /// Vector from the common mass centre to the mass centre of each body [m].
     arm: Vec<Vec3>,
     beyond: Vec<Six>,
     shift: Vec<f64>,

@@ -87,8 +87,8 @@ pub(super) struct NonsmoothWorkspace {
     pub(super) is_used_up: bool,
 }
 
-/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the
-/// problem are those of the trees afterwards.
+/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. Afterwards the
+/// factors of the problem belong to the trees without constraints.
 pub(super) fn solve(
     problem: &mut Problem<'_>,
     w: &mut NonsmoothWorkspace,
@@ -170,7 +170,7 @@ impl Nonsmooth<'_, '_> {
         let NonsmoothWorkspace { lambda, best, swept, .. } = &mut *self.w;
         // Nothing was kept if no residual was a number.
         let Some(kept) = best.lambda().filter(|_| !turn.is_multiple_of(FRESH)) else {
-            // Sweeps converge slowly but hardly ever fail: they go on where those of the last such turn ended.
+            // Sweeps converge slowly but hardly ever fail: they continue from the result of the last such turn.
             lambda.copy_from_slice(swept);
             self.sweep(FRESH_SWEEPS);
             self.w.swept.copy_from_slice(&self.w.lambda);
@@ -308,7 +308,7 @@ impl Nonsmooth<'_, '_> {
     }
 }
 
-/// Fixed numbers between 0 and 1: those of Weyl's sequence of √2, a new part of it for each turn.
+/// Fixed numbers between 0 and 1 from Weyl's sequence of √2, a new part of it for each turn.
 fn pseudo_random(turn: usize) -> impl Iterator<Item = f64> {
     (1..).map(move |k| ((k + 1009 * turn) as f64 * std::f64::consts::SQRT_2).fract())
 }
@@ -348,8 +348,7 @@ fn depart(group: &ConstraintGroup, rho: &[f64], lambda: &[f64], u: &[f64], left:
     }
 }
 
-/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside it is that of λ and of the
-/// bound.
+/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside them F = (λ - bound) / ρ.
 fn differentiate(
     group: &ConstraintGroup,
     rho: &[f64],

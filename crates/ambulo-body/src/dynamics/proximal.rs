@@ -480,7 +480,7 @@ impl Newton<'_, '_> {
     }
 
     /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it
-    /// falls only slowly, ρ is raised; this is needed for modes whose mobility is far below that of single rows
+    /// falls only slowly, ρ is raised; this is needed for modes much less mobile than single rows
     /// (bending of a tall tower, with the fourth power of the number of levels).
     fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
         let slow = residual > SLOW * *last;

@@ -36,7 +36,7 @@ pub(crate) struct PlannedBushing {
 pub(crate) struct PlannedEnd {
     /// State of the body: 0 is ground, i + 1 is body i.
     pub(crate) state: usize,
-    /// The axes of the frame in those of M.
+    /// Rotation from the axes of the frame to the axes of M.
     pub(crate) axes: Mat3,
     /// From the mass centre to the origin of the frame, in M axes [m].
     pub(crate) from_center: Vec3,

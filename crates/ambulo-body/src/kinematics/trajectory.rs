@@ -92,8 +92,8 @@ impl Trajectory {
     }
 
     /// Completes a smoothed recording: missing coordinates get the values of the model, coupled ones follow their
-    /// coupler. Locked and prescribed coordinates keep their recorded values, as in OpenSim's inverse dynamics, and get
-    /// those of the model without a recording. A warning names each column that contradicts the model.
+    /// coupler. Locked and prescribed coordinates keep their recorded values, as in OpenSim's inverse dynamics; without
+    /// a recording they get the values of the model. A warning names each column that contradicts the model.
     ///
     /// # Errors
     /// Numbers that are not finite.

@@ -1,10 +1,9 @@
 //! The built-in full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with
 //! spatial joints.
 //!
-//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint for the same
-//! [`Build`]; only the joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are
-//! those of Gait2392 and docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have
-//! the same signs.
+//! Bodies, masses, mass centres, inertias and soles equal the planar figure with a toe joint for the same [`Build`];
+//! only the joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs follow Gait2392
+//! and docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have the same signs.
 //!
 //! | body              | coordinates, in the order of the rotations                                     | axes (right side) |
 //! |-------------------|--------------------------------------------------------------------------------|-------------------|
@@ -18,8 +17,8 @@
 //! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
 //!
 //! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The
-//! subtalar axis is that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist are
-//! rigid with the forearm. With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
+//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist
+//! are rigid with the forearm. With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
 
 use super::anthropometry::{Build, BuildError, Human};
 use super::{

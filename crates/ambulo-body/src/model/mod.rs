@@ -443,7 +443,7 @@ impl Model {
         Ok(model)
     }
 
-    /// The model on ground that rises by an angle [rad] along x. The axes are those of the ground, so gravity is
+    /// The model on ground that rises by an angle [rad] along x. The axes are aligned with the ground, so gravity is
     /// inclined.
     #[must_use]
     pub fn on_slope(&self, angle: f64) -> Model {

@@ -60,7 +60,7 @@ impl SolePlacement {
 pub struct SubjectShape {
     /// One per body, in the order of the model.
     pub segments: Vec<SegmentShape>,
-    /// Markers, which replace those of the figure.
+    /// Markers, which replace the figure's markers.
     pub markers: Vec<Marker>,
     /// Right and left foot.
     pub feet: [SolePlacement; 2],

@@ -119,7 +119,7 @@ impl RecordedTable {
     /// Spline of an angle for a joint to follow [rad]. Whole turns are removed.
     ///
     /// # Errors
-    /// Those of [`RecordedTable::column`], and an angle that jumps.
+    /// Errors of [`RecordedTable::column`], and an angle that jumps.
     pub fn angle(&self, name: &str, findings: &mut Findings) -> Result<NaturalSpline, CurveError> {
         let Samples { times, mut values, rows } = self.values(name, true, findings)?;
         let turns = jumps::unwrapped(&mut values);

@@ -2,8 +2,8 @@
 //!
 //! gain(f) = 1 / (1 + (tan(π f T) / Ω)^(2 order)),   Ω = tan(π cutoff T),   T the sampling interval
 //!
-//! The filter runs forwards and backwards, so phases cancel and this gain is the square of that of one pass.
-//! **The cut-off is that of one pass, where its gain is 0.707; after both passes the gain there is 1/2 (-6 dB).**
+//! The filter runs forwards and backwards, so phases cancel and this gain is the square of the gain of one pass.
+//! **The cut-off refers to one pass, where its gain is 0.707; after both passes the gain there is 1/2 (-6 dB).**
 //! OpenSim's `Signal::LowpassIIR` has the same convention. Texts that state the -3 dB point of both passes divide the
 //! cut-off by (√2 - 1)^(1/(2 order)), 0.863 for order 3, before designing the filter.
 //!

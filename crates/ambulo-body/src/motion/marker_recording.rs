@@ -11,7 +11,7 @@ use ambulo_formats::trc::Trc;
 use std::ops::Range;
 
 /// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::rotated`] rotates them
-/// to those of the world.
+/// to world axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerRecording {
     /// Name of their source, for messages.

@@ -11,7 +11,7 @@
 //! Rotations may also be matrices of three by three numbers. The numbers of other representations have no agreed order
 //! (quaternions with w first or last, six numbers of two rows or of two columns), so that they are refused by name.
 //!
-//! A rotation turns the axes of a joint from those of its parent; in the resting pose, a T, all are x to the left, y
+//! A rotation turns the axes of a joint relative to its parent; in the resting pose, a T, all are x to the left, y
 //! up, z forward. The file has no lengths: they come from the user's own SMPL file, J = R (v + S beta) with its joint
 //! regressor R, vertices v and shapes S, or else from the built-in body of a stature. Then the pelvis joint lies at
 //! mid-hip, and the spine is divided evenly.

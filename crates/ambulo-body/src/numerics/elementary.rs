@@ -9,7 +9,7 @@
 //!
 //! Source: the crate `libm`, a translation of the mathematical libraries of FreeBSD and musl (its feature `arch`, which
 //! takes instructions of the processor, changes only correctly rounded functions); sine and cosine are in
-//! `numerics::sin_cos`. Errors are below 1 unit in the last place, those of [`powi`] grow with the exponent.
+//! `numerics::sin_cos`. Errors are below 1 unit in the last place; errors of [`powi`] grow with the exponent.
 //! `clippy.toml` forbids the functions of the standard library.
 //! Pinned by: tests/numerics_elementary.rs, with values of 50 digits, and a checksum of the bits of all functions.
 

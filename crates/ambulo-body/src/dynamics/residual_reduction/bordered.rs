@@ -3,7 +3,7 @@
 //!   [A  B ] [x]   [r]        Z = A⁻¹ B,   (D - Bᵀ Z) y = s - Zᵀ r,   x = A⁻¹ r - Z y
 //!   [Bᵀ D ] [y] = [s]
 //!
-//! Cost: that of [`BandMatrix`], and one solution per column of the border.
+//! Cost: the cost of [`BandMatrix`], plus one solution per column of the border.
 
 use crate::numerics::BandMatrix;
 use nalgebra::{Cholesky, DMatrix, DVector};

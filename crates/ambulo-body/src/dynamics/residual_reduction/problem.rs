@@ -294,7 +294,7 @@ impl FrameEquations {
         }
     }
 
-    /// Adds these equations to those of the motion, where the unknowns of this frame begin at `first`.
+    /// Adds these equations to the equations of the motion, where the unknowns of this frame begin at `first`.
     fn spread(&self, first: usize, equations: &mut BorderedSystem) {
         let whole = self.size + self.numbers;
         for i in 0..self.size {

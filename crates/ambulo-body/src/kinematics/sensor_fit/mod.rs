@@ -12,7 +12,7 @@
 //! | `poses` | B | orientations of the bodies |
 //!
 //! |·|² is the sum of the squares of the elements: 8 sin²(θ/2) for sensors that are off by θ, which is 2 θ² for small angles; OpenSim minimises
-//! Σ w θ². The solver is that of [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which
+//! Σ w θ². The solver is [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which
 //! all joints are at one point, the tips of the axes of a sensor are markers, and the differences of directions are
 //! distances.
 //!
@@ -59,7 +59,7 @@ pub struct SensorTrial<'a> {
 /// Axes of the earth of sensors, and the direction forward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorAxes {
-    /// Turn from the axes of the sensors' earth to those of the world, of which y is up.
+    /// Rotation from the earth axes of the sensors to world axes (y up).
     pub world_from_earth: Mat3,
     /// How the direction forward is found.
     pub heading: SensorHeading,
@@ -82,7 +82,7 @@ pub enum SensorHeading {
 }
 
 impl Default for SensorAxes {
-    /// An earth with z up, as that of most sensors.
+    /// Earth axes with z up, as most sensors use.
     fn default() -> Self {
         SensorAxes { world_from_earth: rotation_about(Vec3::x(), -FRAC_PI_2), heading: SensorHeading::Knees }
     }
@@ -105,16 +105,16 @@ pub fn standing_posture(model: &Model, sensors: &[(String, BodyId, Mat3)], axes:
 /// Coordinates from sensors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorFit {
-    /// All coordinates. Those of the place of the root are derived from the feet on the ground.
+    /// All coordinates. The translations of the root are derived from the feet on the ground.
     pub motion: Motion,
-    /// Turn about the vertical that was applied to the orientations, from the sensors' heading to that of the model
-    /// [rad].
+    /// Rotation about the vertical that was applied to the orientations, from the sensors' heading to the model's
+    /// heading [rad].
     pub heading: f64,
     /// Name of each used sensor, with the angle between sensor and body: root mean square over the frames [rad].
     pub angles: Vec<(String, f64)>,
 }
 
-/// Fits a model to the orientations of sensors. Weights of sensors are those of the settings, by name.
+/// Fits a model to the orientations of sensors. `settings` has the weights of sensors, by name.
 ///
 /// # Errors
 /// Sensors that are on no body, no standing posture, no direction forward, coordinates that are not determined: see

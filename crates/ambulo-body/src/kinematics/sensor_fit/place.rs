@@ -7,9 +7,9 @@
 //!
 //!   w_k = exp(-(y_k - y_min)/ε) exp(-|v_k - v_min|²/2σ²)
 //!
-//! where v_k is the velocity of the point relative to the root, and v_min that of the lowest point: points that are on
-//! the ground together move alike. ε and σ make the change from one point to the next smooth. The increments along the
-//! floor use the mean weights of both frames.
+//! where v_k is the velocity of the point relative to the root, and v_min the same velocity of the lowest point: points
+//! that are on the ground together move alike. ε and σ make the change from one point to the next smooth. The
+//! increments along the floor use the mean weights of both frames.
 //!
 //! A foot is on the ground at every instant: flight is not detected, and its height is wrong.
 //! Pinned by: tests/sensor_fit.rs

@@ -58,7 +58,7 @@ pub struct SolePoint {
 }
 
 impl Sole {
-    /// Computes the sole from heel, ball and toe spheres; its ends are those of the outermost spheres.
+    /// Computes the sole from heel, ball and toe spheres; it ends where the outermost spheres end.
     #[must_use]
     pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
         let first = |part: SpherePart| spheres.iter().find(|sphere| sphere.side == side && sphere.part == part);

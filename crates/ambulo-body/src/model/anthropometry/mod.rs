@@ -3,7 +3,7 @@
 //! A figure moves in a plane but has three-dimensional segments: hinges about z, hips and shoulders at their width. All
 //! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground
 //! y = 0. Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and
-//! the axes of the world in that posture. Signs are those of docs/CONVENTIONS.md.
+//! the axes of the world in that posture. Signs follow docs/CONVENTIONS.md.
 //!
 //! | body              | joint to its parent | coordinate                              |
 //! |-------------------|---------------------|-----------------------------------------|

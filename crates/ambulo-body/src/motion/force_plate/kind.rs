@@ -1,8 +1,8 @@
 //! Types of force plates: converts channels to a wrench about the centre of the surface.
 //!
-//! Everything is in the axes of the plate: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the
-//! side of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate in the floor. F is the force
-//! **on the foot**, M its moment about the centre of the surface, c the channels.
+//! Everything is in the axes of the plate: x from corners 2 and 3 to corners 1 and 4, y from corners 3 and 4 to corners
+//! 1 and 2, z = x × y, which points down in a plate in the floor. F is the force **on the foot**, M its moment about
+//! the centre of the surface, c the channels.
 //!
 //! | type | channels | F | M |
 //! |---|---|---|---|

@@ -38,7 +38,7 @@ use crate::spatial::{Mat3, Vec3};
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
 
 /// Forces and moments of one force plate. From a file they are in the axes of the laboratory;
-/// [`PlateRecording::rotated`] rotates them to those of the world.
+/// [`PlateRecording::rotated`] rotates them to world axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateRecording {
     /// Name: `plate 1`, counted from 1 in the order of the file.

@@ -117,7 +117,7 @@ fn pose_of(pose: &MvnxPose, turn: &Mat3) -> Pose {
     Pose { rotation: rotation * turn, translation: Vec3::from(pose.position) }
 }
 
-/// Turn from the axes of the T-pose to those of hanging arms with palms forward.
+/// Rotation from the axes of the T-pose to the axes with hanging arms and palms forward.
 fn hanging(segment: PosedSegment) -> Mat3 {
     let outward = |side: Side| if side == Side::Right { 1.0 } else { -1.0 };
     let down = |side: Side| rotation_about(Vec3::x(), -outward(side) * FRAC_PI_2);
