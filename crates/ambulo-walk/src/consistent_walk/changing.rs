@@ -1,7 +1,8 @@
 //! A consistent walk whose pace changes on the way.
 //!
 //! The walk is made consistent at every constant pace. Each change is one motion from the state of the walk before to
-//! that of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from outside.
+//! the state of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from
+//! outside.
 //! Pinned by: tests/walk_changes.rs
 
 use super::settings::ConsistentWalkSettings;

@@ -69,7 +69,7 @@ pub struct Root {
 }
 
 impl Root {
-    /// Those of a model of a figure.
+    /// The root coordinates of a model of a figure.
     pub fn of(model: &Model) -> Root {
         let named = |name: &str| model.coordinate(name).map(|id| id.index());
         let turns = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"].into_iter().filter_map(named).collect();

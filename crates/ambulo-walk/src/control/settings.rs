@@ -5,7 +5,7 @@ use crate::engine::WorldError;
 use crate::optimal::OptimalWalkError;
 use crate::walking::{TorqueSeries, WalkingError};
 
-/// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they
+/// Settings of a [`WalkController`](super::WalkController). Torques are stated for an adult of 75 kg and 1.75 m; they
 /// grow with mass times stature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControlSettings {
@@ -49,11 +49,11 @@ pub struct FootPlacement {
 /// Torques of the joints over the cycle, to which impedance and feedback add theirs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TorqueCurves {
-    /// Those of the plan.
+    /// Torques of the plan.
     Plan,
-    /// Mean and this number of harmonics of those of the plan.
+    /// Mean and this number of harmonics of the torques of the plan.
     Harmonics(usize),
-    /// Curves of a file, in proportion to the mass of the figure; joints without one keep that of the plan.
+    /// Curves of a file, in proportion to the mass of the figure; joints without one keep the torque of the plan.
     Given(Vec<TorqueSeries>),
 }
 
@@ -131,12 +131,12 @@ pub enum ControlError {
     /// A plan whose forces cannot be computed.
     #[error(transparent)]
     Plan(#[from] CurvedJointError),
-    /// A figure with other joints or soles than that of the plan.
+    /// A figure with other joints or soles than the planned figure.
     #[error("found a figure with {found}; expected {expected}, as in the plan")]
     Figure {
         /// Coordinates and soles of the figure.
         found: String,
-        /// Those of the plan.
+        /// Coordinates and soles of the plan.
         expected: String,
     },
     /// The figure cannot be simulated.
@@ -170,9 +170,9 @@ pub enum ControlError {
          speed and figure"
     )]
     TorqueCycle {
-        /// That of the curves [s].
+        /// Cycle of the curves [s].
         found_s: f64,
-        /// That of the plan [s].
+        /// Cycle of the plan [s].
         cycle_s: f64,
     },
     /// Controllers that cannot be joined.
@@ -192,9 +192,9 @@ pub enum ControlError {
     Speed {
         /// The speed [m/s].
         found: f64,
-        /// That of the slowest plan [m/s].
+        /// Speed of the slowest plan [m/s].
         slowest: f64,
-        /// That of the fastest plan [m/s].
+        /// Speed of the fastest plan [m/s].
         fastest: f64,
     },
     /// A figure that cannot stop, or walk off.

@@ -128,7 +128,7 @@ pub(super) enum KnownEffort {
 pub(super) struct Known<'a> {
     /// Forces at contact points.
     pub(super) contacts: &'a [ContactForce],
-    /// Efforts by joint and coordinate; those of driven coordinates are not used.
+    /// Efforts by joint and coordinate; efforts of driven coordinates are not used.
     pub(super) efforts: Vec<Vec<KnownEffort>>,
 }
 

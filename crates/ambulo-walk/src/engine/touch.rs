@@ -388,7 +388,7 @@ impl RowWriter<'_> {
         }
     }
 
-    /// Adds a group of rows; returns its number and that of its first row.
+    /// Adds a group of rows; returns the number of the group and the number of its first row.
     fn push(&mut self, rows: &[Constraint], on: ActsOn, law: Law) -> (usize, usize) {
         let start = self.graph.rows.len();
         self.graph.rows.extend_from_slice(rows);
@@ -472,7 +472,7 @@ fn owner_motion(state: &WorldState, obstacles: &ObstaclePoses, surface: &Surface
     (pose, twist.linear.norm() + arm * twist.angular.norm())
 }
 
-/// The pose of a surface's shape. Spheres have no axes, so they keep those of their owner.
+/// The pose of a surface's shape. Spheres have no axes, so they keep their owner's axes.
 #[inline(always)]
 fn placed(owner: &Pose, surface: &Surface) -> Pose {
     match surface.shape.is_sphere() {

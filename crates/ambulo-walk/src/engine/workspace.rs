@@ -152,9 +152,9 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step. Those of [`Integrator::Impulse`] and [`Integrator::RungeKutta`] belong to its
-    /// start, those of [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a
-    /// step of impulses belong to half a step earlier; frames of a scene have all at one instant.
+    /// The forces of the last step. With [`Integrator::Impulse`] and [`Integrator::RungeKutta`] they belong to its
+    /// start, with [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a step
+    /// of impulses belong to half a step earlier; in frames of a scene all belong to one instant.
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         let (graph, h) = (&self.equations.assembly.graph, self.step_s);
@@ -227,7 +227,7 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Impacts of the last step that are not part of its forces: those of a Runge-Kutta step, or of
+    /// Impacts of the last step that are not part of its forces: from a Runge-Kutta step, or from
     /// [`ImpactLaw::Sticking`](super::ImpactLaw::Sticking).
     #[must_use]
     pub fn impacts(&self) -> &[Impact] {

@@ -208,7 +208,7 @@ fn scale_or(root: &Table<'_>, key: &str, default: f64) -> Result<f64, TomlError>
     if FACTOR.contains(factor) { Ok(factor) } else { Err(value.wrong(FACTOR.expected)) }
 }
 
-/// Adds the changes of the file to those of the base.
+/// Adds the changes of the file to the changes of the base.
 fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), GaitError> {
     let tables = root.tables("change")?;
     let mut last = [None; 3];

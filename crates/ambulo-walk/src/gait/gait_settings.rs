@@ -40,7 +40,7 @@ pub struct Gait {
 pub struct Pace {
     /// Walking speed.
     pub speed: Option<Speed>,
-    /// Step length [m], from the foot strike of one foot to that of the other.
+    /// Step length [m], from the foot strike of one foot to the foot strike of the other.
     pub step_length: Option<f64>,
     /// Step frequency [steps/s].
     pub step_frequency: Option<f64>,

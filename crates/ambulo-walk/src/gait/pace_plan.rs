@@ -1,6 +1,6 @@
 //! Pace and phase as functions of time while a figure walks, begins to walk and stands still.
 //!
-//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to those of the start,
+//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to the start,
 //! and the share of walking, 0 in standing and 1 in walking. They are constant between changes. During a change the
 //! cycle rate follows a quintic ramp of time, r(u) = 10 u³ - 15 u⁴ + 6 u⁵, and phase is its integral:
 //!
@@ -52,9 +52,9 @@ impl PaceChange {
 pub(super) struct SteadyPace {
     /// Dimensionless law speed.
     pub(super) law_speed: f64,
-    /// Step length relative to that of the plan's law.
+    /// Step length relative to the plan's law.
     pub(super) length: f64,
-    /// Step frequency relative to that of the plan's law.
+    /// Step frequency relative to the plan's law.
     pub(super) cadence: f64,
     /// Whether the figure walks; otherwise it stands.
     pub(super) walks: bool,

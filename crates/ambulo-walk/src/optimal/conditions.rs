@@ -65,8 +65,8 @@ pub struct Device {
 
 /// Smallest and largest slope [%].
 const STEEPEST: [f64; 2] = [-40.0, 40.0];
-/// Distance of the mass centre of a backpack behind that of trunk and head, as a share of stature: our choice, 0.2 m
-/// for a man of 1.75 m.
+/// Distance of the mass centre of a backpack behind the mass centre of trunk and head, as a share of stature: our
+/// choice, 0.2 m for a man of 1.75 m.
 const BACKPACK: f64 = 0.115;
 
 impl LoadPlace {

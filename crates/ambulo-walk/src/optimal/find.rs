@@ -78,7 +78,7 @@ impl OptimalWalk {
         Ok(found)
     }
 
-    /// The figure with the soles of its plan, which are wider than those of the planar figure.
+    /// The figure with the soles of its plan, which are wider than the soles of the planar figure.
     #[must_use]
     pub fn figure(&self) -> Human {
         Human { soles: self.problem.problem.soles.clone(), ..self.human.clone() }

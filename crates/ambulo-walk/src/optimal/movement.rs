@@ -262,7 +262,7 @@ fn checked(keys: &[Key]) -> Result<f64, MovementError> {
     Ok(last.time_s)
 }
 
-/// Coordinates at all instants of a problem, whose first `soles` spheres are those of the feet.
+/// Coordinates at all instants of a problem, whose first `soles` spheres belong to the feet.
 fn first_guess(
     problem: &Problem,
     soles: usize,
@@ -354,7 +354,7 @@ pub(super) struct End<'a> {
     /// Coordinates [rad, m] and rates [rad/s, m/s].
     pub(super) place: &'a [f64],
     pub(super) rates: &'a [f64],
-    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only those of joints,
+    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only coordinates of joints,
     /// roughly.
     pub(super) is_exact: bool,
 }

@@ -71,9 +71,9 @@ pub struct WalkCosts {
     pub ankle: f64,
     /// The same for the angular accelerations of these joints [rad/s²].
     pub acceleration: f64,
-    /// The same for that of the toes [rad/s²].
+    /// The same for the angular acceleration of the toes [rad/s²].
     pub toes: f64,
-    /// The same for those of the arms, and of other joints that are not named here [rad/s²].
+    /// The same for the angular accelerations of arms and other joints that are not named here [rad/s²].
     pub arms: f64,
     /// The same for the pelvis in the frontal and the transverse plane [rad].
     pub pelvis: f64,
@@ -93,8 +93,8 @@ pub struct WalkCosts {
     /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no
     /// target.
     pub sideways_force: f64,
-    /// Deviation of a joint moment from that of [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle
-    /// [body weight × leg length].
+    /// Deviation of a joint moment from [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle [body weight
+    /// × leg length].
     pub moment: f64,
     /// The same for hip abduction [body weight × leg length].
     pub abduction: f64,
@@ -383,7 +383,7 @@ impl Builder<'_> {
         vec![Some(value); self.targets.len()]
     }
 
-    /// Adds terms for angle and acceleration of a coordinate, with those of the walk as targets.
+    /// Adds terms for angle and acceleration of a coordinate, with the walk's as targets.
     fn follow(&mut self, id: CoordinateId, angle: f64, acceleration: f64) {
         let name = self.model.coordinates()[id.index()].name.clone();
         let part = |d: usize| self.targets.iter().map(|t| Some(t.posture[d][id.index()])).collect::<Vec<_>>();

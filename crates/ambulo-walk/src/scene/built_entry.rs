@@ -53,7 +53,7 @@ pub struct WalkEntry {
     pub mode: FigureWalkMode,
     /// Phase at which the scene begins, as a share of the cycle from a right foot strike.
     pub phase: f64,
-    /// Changes of pace after those of the gait.
+    /// Changes of pace after the changes of the gait.
     pub changes: Vec<PaceChange>,
     /// Height by which soles are lifted further than usual [m].
     pub lift: f64,

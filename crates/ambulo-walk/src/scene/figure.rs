@@ -36,7 +36,7 @@ pub struct FigureEntry {
     pub spheres: Vec<SphereEntry>,
 }
 
-/// The coordinates of a figure that follow its recording, except those of the root.
+/// The coordinates of a figure that follow its recording, except the root's.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DrivenCoordinates {
     /// All.

@@ -10,10 +10,10 @@
 //! - [`TuningProblem`]: a figure, its plan and its settings; [`TuningProblem::outcome`] is the cost of other settings.
 //! - [`Tuning`]: the state of the search, from which it can be resumed.
 //!
-//! Three kinds of pushes are never the same: those by which candidates of a generation are compared (new ones in every
-//! generation), those by which the best mean of all generations is chosen, and those of the report ([`PushUse`]).
+//! Three kinds of pushes are never the same: pushes by which candidates of a generation are compared (new ones in every
+//! generation), pushes by which the best mean of all generations is chosen, and pushes of the report ([`PushUse`]).
 //!
-//! The maps of the time steps are computed once: those of another impedance follow from them (module `linear`), so a
+//! The maps of the time steps are computed once: maps of another impedance follow from them (module `linear`), so a
 //! candidate costs its Riccati equation and its trials.
 
 pub(crate) mod gain;

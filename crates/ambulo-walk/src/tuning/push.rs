@@ -66,7 +66,7 @@ pub enum PushUse {
 }
 
 impl PushUse {
-    /// Number of the sequence of random numbers; 0 is that of the optimiser.
+    /// Number of the sequence of random numbers; 0 belongs to the optimiser.
     fn sequence(self) -> u64 {
         match self {
             PushUse::Choice => 1,

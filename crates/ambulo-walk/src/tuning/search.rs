@@ -61,7 +61,7 @@ impl Tuning {
         Cma::candidates(gains) + 1
     }
 
-    /// Whether its numbers can be those of a search for so many gains, for one that was read from a file.
+    /// Whether a search that was read from a file has the numbers of a search for so many gains.
     #[must_use]
     pub fn is_valid(&self, gains: usize) -> bool {
         let known = [&self.start, &self.best].into_iter().flatten();

@@ -267,7 +267,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Keeps the targets of a row; at the start they are those of the signals.
+    /// Keeps the targets of a row; at the start they equal the signals.
     fn read_targets(&mut self, targets: &GaitTargets, time_s: f64) {
         let count = self.walker.signals.len();
         self.targets = match self.columns.is_empty() || self.feet[0].force.is_empty() {

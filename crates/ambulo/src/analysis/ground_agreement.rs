@@ -263,8 +263,8 @@ impl ComparedStance {
     }
 
     /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors):
-    /// forces in body weights, centres of pressure in statures, sideways is outwards. The samples of a component have a
-    /// weight of 1 together, those of a centre of pressure more where the foot is loaded.
+    /// forces in body weights, centres of pressure in statures, sideways is outwards. The weights of the samples of a
+    /// component sum to 1; samples of a centre of pressure weigh more where the foot is loaded.
     #[must_use]
     pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
         let mut all: [Vec<ErrorSample>; 5] = Default::default();

@@ -133,7 +133,7 @@ impl MarkerTrial<'_> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
         let calibrated =
             |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
-        // A body that needs the motion besides the standing trial is not that of the other motions.
+        // A body that needs markers of this motion besides the standing trial cannot be shared with other motions.
         match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
@@ -249,7 +249,7 @@ fn during(poses: &SegmentPoses, points: &MarkerRecording) -> SegmentPoses {
     poses.cut(poses.times.partition_point(|time| *time < first), points.frames())
 }
 
-/// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
+/// Gives coordinates that no marker determines, such as toe angles, the default value of the model.
 fn use_defaults_without_markers(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     /// Most names in a message.
     const MOST: usize = 6;

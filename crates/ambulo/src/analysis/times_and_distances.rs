@@ -57,7 +57,7 @@ pub struct TimesAndDistances {
     pub strides: Vec<Stride>,
 }
 
-/// One stride of a foot: strike, foot off, next strike. Shares are those of the cycle, from 0 to 1.
+/// One stride of a foot: strike, foot off, next strike. Shares refer to the cycle, from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stride {
     /// Which foot.
@@ -427,10 +427,10 @@ impl Places {
         Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
     }
 
-    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. A
-    /// stride has the walking direction of its middle: this foot's stride that of half a step before, the other foot's
-    /// next stride that of half a step after. If there is no next one, the other foot's last stride is used, one and a
-    /// half steps before.
+    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`.
+    /// The direction of a stride holds at its middle: this foot's stride gives it half a step before, the other foot's
+    /// next stride half a step after. If there is no next stride, the other foot's last stride is used, one and a half
+    /// steps before.
     fn heading(&self, line: Vec3, other: &Strike, stride_s: f64) -> Vec3 {
         let of_other = |from_s: f64, to_s: f64| {
             let same_foot = |s: &&Strike| s.side == other.side && s.time_s > from_s && s.time_s < to_s;

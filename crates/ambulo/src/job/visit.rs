@@ -19,9 +19,9 @@ use std::path::Path;
 pub struct VisitRun {
     /// Number of the trial.
     pub trial: usize,
-    /// The mass of the body [kg]; `None` takes that of the job.
+    /// The mass of the body [kg]; `None` takes the mass of the job.
     pub mass_kg: Option<f64>,
-    /// The body; `None` takes that of the job.
+    /// The body; `None` takes the body of the job.
     pub body: Option<Subject>,
 }
 

@@ -33,7 +33,7 @@ pub(super) struct Walker<'a> {
     pub(super) soles: &'a BySide<Option<Sole>>,
     /// The longest time without gaps.
     pub(super) window: Window,
-    /// From the axes of the markers to those of the world.
+    /// Rotation from the axes of the markers to world axes.
     pub(super) world_from_lab: Option<&'a Mat3>,
     /// By how much the forces were recorded late [s].
     pub(super) delay_s: f64,

@@ -43,13 +43,13 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
-    /// Whether the forces are those of the force plates of the recording.
+    /// Whether the forces come from the force plates of the recording.
     pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
     pub(super) device: Option<Table>,
-    /// Whether the mass is that of a given model alone: none is stated, and no load was added.
+    /// Whether the mass comes from a given model alone: none is stated, and no load was added.
     pub(super) has_models_mass: bool,
 }
 
@@ -106,7 +106,7 @@ impl Observation {
         Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
     }
 
-    /// Whether a mass that force plates measure replaces that of the model.
+    /// Whether a mass that force plates measure replaces the mass of the model.
     pub(super) fn takes_weighed_mass(&self) -> bool {
         self.has_models_mass && (!self.forces.is_empty() || self.known_mass.standing.is_some())
     }

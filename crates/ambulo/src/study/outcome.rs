@@ -123,8 +123,8 @@ impl PredictedGround {
 }
 
 impl Outcome {
-    /// The analysis that tables and figures show: that of the measured forces, with predicted ones in the stances that
-    /// were not measured. Events, cycles, mass and residual are those of [`Outcome::analysis`].
+    /// The analysis that tables and figures show: of the measured forces, with predicted ones in the stances that were
+    /// not measured. Events, cycles, mass and residual come from [`Outcome::analysis`].
     #[must_use]
     pub fn complete(&self) -> &Analysis {
         self.completed.as_ref().unwrap_or(&self.analysis)

@@ -60,7 +60,7 @@ impl MarkerSource {
 }
 
 impl MeasuredForces {
-    /// Forces on bodies without a delay; those of plates and tables lose it where they are read.
+    /// Forces on bodies without a delay; from plates and tables the delay is removed where they are read.
     pub(super) fn without_delay(mut self, delay_s: f64) -> MeasuredForces {
         if let MeasuredForces::OnBodies(forces) = &mut self
             && delay_s.abs() > 0.0

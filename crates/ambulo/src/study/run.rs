@@ -133,8 +133,8 @@ fn road(
     Ok(outcome)
 }
 
-/// Forces and body mass; where force plates carry another mass than that of a given model, and none is stated, those of
-/// the model with the weighed mass.
+/// Forces and body mass. If force plates carry another mass than a given model has, and no mass is stated, the model
+/// with the weighed mass is used.
 fn weighed(
     mut observed: Observation,
     motion: ObservedMotion,

@@ -101,12 +101,12 @@ pub struct CompleteMotion {
 /// Measured ground forces.
 #[derive(Debug, Clone, Default)]
 pub enum MeasuredForces {
-    /// Those of the force plates in a recording of markers, if it has any.
+    /// Forces of the force plates in a recording of markers, if it has any.
     #[default]
     InRecording,
     /// Forces on bodies of the model.
     OnBodies(Vec<ForceRecording>),
-    /// A table; its axes are those of the markers or of the world.
+    /// A table, in the axes of the markers or of the world.
     Table(ForceTable),
 }
 

@@ -69,8 +69,8 @@ pub struct SizedModel {
     pub rms_m: Option<f64>,
 }
 
-/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person. The
-/// body mass [kg] does not change if `mass_kg` is `None`.
+/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person.
+/// Without a `mass` [kg], the model keeps its mass.
 ///
 /// # Errors
 /// Markers that cannot be fitted, a mass that is not positive.

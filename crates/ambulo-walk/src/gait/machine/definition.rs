@@ -75,7 +75,7 @@ pub(super) enum Cause {
 pub(super) struct Passage {
     start_s: f64,
     duration_s: f64,
-    /// Output of the earlier activity minus that of the new one, at the start.
+    /// Output of the earlier activity minus output of the new one, at the start.
     from: Jet,
 }
 
@@ -284,7 +284,7 @@ impl Machine {
         }
     }
 
-    /// A machine that runs at some times only. Its first state is that of rest, the second the one in which it starts.
+    /// A machine that runs at some times only. Its first state is rest; it starts in the second.
     #[must_use]
     pub(crate) fn with_gate(mut self, gate: Gate) -> Machine {
         self.gate = Some(gate);

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A machine that a user describes. It runs next to the machine of the walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSettings {
-    /// Name, different from those of all other machines.
+    /// Name, unique among the machines.
     pub name: String,
     /// The joint, the coordinate or the pace that its activities set.
     pub drives: Driven,

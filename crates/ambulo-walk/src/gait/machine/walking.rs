@@ -281,7 +281,7 @@ impl WalkMachine {
     }
 
     /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait
-    /// plans, and angles are those of the previous step.
+    /// plans; the machines read the angles of the previous step.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);

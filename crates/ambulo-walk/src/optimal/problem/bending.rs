@@ -1,9 +1,9 @@
 //! Second derivatives of the residuals, for Newton's method.
 //!
-//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is that of the normal equations. The
-//! second one is, per instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is differentiated by
-//! differences. Forces are linear in accelerations; therefore only positions and rates need to change, unless a term is
-//! another function of forces. The rest follows by symmetry.
+//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is the matrix of the normal
+//! equations. The second one is, per instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is
+//! differentiated by differences. Forces are linear in accelerations; therefore only positions and rates need to
+//! change, unless a term is another function of forces. The rest follows by symmetry.
 
 use super::Transcription;
 use crate::optimal::instant::Instant;

@@ -259,7 +259,7 @@ pub struct TrackProblem<'a> {
     /// Numbers of unknowns of locked, prescribed and coupled coordinates.
     kept: Vec<usize>,
     floor_m: f64,
-    /// Velocity of each coordinate due to that of the floor [m/s].
+    /// Velocity of each coordinate due to the velocity of the floor [m/s].
     belt: Vec<f64>,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between
 //! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the force of people who walk,
-//! and s is the share of the foot in the load of both: that of people while the figure moves, and one half where it
-//! almost stands.
+//! and s is the share of the foot in the load of both: the normative share while the figure moves, and one half where
+//! it almost stands.
 
 use crate::gait::machine::WalkMachine;
 use crate::gait::{
@@ -37,7 +37,7 @@ pub(super) fn settled_s(walk: &Walk) -> f64 {
 /// Targets at one instant.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
-    /// Coordinates, rates and accelerations. The height is that of the leg.
+    /// Coordinates, rates and accelerations. The height is the leg's.
     pub(super) posture: [Vec<f64>; 3],
     /// Ground force of the right and of the left foot: forward, up [body weights].
     pub(super) forces: [[f64; 2]; 2],
@@ -139,7 +139,7 @@ impl<'a> Targets<'a> {
         })
     }
 
-    /// Moments of a leg; those of standing are not known, and small.
+    /// Moments of a leg; in standing they are unknown and small.
     fn joint_moments(&self, at: &WalkPosture, clock: &Clock, side: Side) -> JointMoments {
         let share = clock.walking.value;
         let JointMoments { hip_extension, knee_extension, plantarflexion, hip_abduction } =

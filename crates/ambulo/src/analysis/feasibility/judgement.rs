@@ -151,7 +151,7 @@ fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     }
 }
 
-/// Number of tracks before those of centres of pressure outside the sole.
+/// Number of tracks before the tracks of centres of pressure outside the sole.
 fn regular_slots(model: &Model) -> usize {
     OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len()
 }

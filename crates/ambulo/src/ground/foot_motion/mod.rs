@@ -15,8 +15,8 @@
 //! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height
 //! limit for the strike is unverified.
 //!
-//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: its speed is that
-//! of the foot markers while they are low. Times of extrema are those of a parabola through three samples.
+//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: the speed of the
+//! floor is the speed of low foot markers. Times of extrema come from a parabola through three samples.
 //! Pinned by: tests/foot_motion.rs, tests/laboratory_files.rs
 
 mod agreement;

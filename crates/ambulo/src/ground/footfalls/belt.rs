@@ -1,8 +1,8 @@
 //! Velocity of the floor: of the belt of a treadmill, or zero.
 //!
 //! While the body is supported, the lower foot is usually in stance, and moves with the floor. The velocities of the
-//! lowest point of both feet therefore cluster at the velocity of the floor; those of swinging feet scatter. The centre
-//! of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). Pieces of the
+//! lowest point of both feet therefore cluster at the velocity of the floor; velocities of swinging feet scatter. The
+//! centre of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). Pieces of the
 //! recording are evaluated separately as well, so that a belt may change its speed slowly.
 
 use super::signals::Signals;

@@ -14,7 +14,7 @@
 //! In 194 plates of 111 clean recordings (9 laboratories) d is 3 to 29 mm, r₁ 0.85 to 1, r₂ 0.5 to 1 with one exception
 //! each, and the true order has the least cost of the eight in all of them.
 //!
-//! An order is changed only if that of the file fails clearly, also by its centre of pressure: a channel with the wrong
+//! An order is changed only if the file's order fails clearly, also by its centre of pressure: a channel with the wrong
 //! sign alone is no matter of corners. All plates are judged together first, because a laboratory makes the same error
 //! with all of them, then each alone.
 //! Pinned by: tests/plate_orders.rs
@@ -35,7 +35,7 @@ const NEARER_M: f64 = 0.02;
 /// An order is right below this cost and this distance [m].
 const RIGHT: f64 = 12.0;
 const RIGHT_M: f64 = 0.05;
-/// The right order has a cost that is less than that of the next by this.
+/// The cost of the right order is at least this much below the cost of the next order.
 const DISTINCT: f64 = 1.0;
 /// Distances are counted up to this [m].
 const FARTHEST_M: f64 = 0.4;
@@ -52,8 +52,8 @@ struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
     distance: f64,
     count: f64,
-    /// Sums of the products of horizontal forces with those of the lever rule along the foot and across it, and of the
-    /// squares of both.
+    /// Sums of the products of measured horizontal forces with horizontal forces of the lever rule, along the foot and
+    /// across it, and of the squares of both.
     products: [f64; 2],
     squares: [[f64; 2]; 2],
 }
@@ -121,7 +121,7 @@ fn loaded(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, soli
     fits.filter(|fits| fits.iter().all(|fit| fit.count > 0.0)).map(|fits| Loaded { plate, fits })
 }
 
-/// The order that is right for all of these plates where that of the file fails, and whether it is the only one.
+/// The order that is right for all of these plates where the file's order fails, and whether it is the only one.
 fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let is_right = |order: &usize| plates.iter().all(|plate| plate.fits[*order].is_right());
     let cost = |order: usize| plates.iter().map(|plate| plate.fits[order].cost()).sum::<f64>();

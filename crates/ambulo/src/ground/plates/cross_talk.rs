@@ -1,8 +1,8 @@
 //! Removes the load that a plate shows under no foot while another plate is loaded: cross-talk.
 //!
 //! Amplifiers and cables let a part of one plate's signal appear in another, and a floor carries a part of a step to
-//! the next plate. Such a load is small, lasts as long as that of the loaded plate, and no foot stands on the plate. It
-//! exceeds 20 N for seconds, so that the plate seems loaded long before a foot is on it.
+//! the next plate. Such a load is small, lasts as long as the load of the loaded plate, and no foot stands on the
+//! plate. It exceeds 20 N for seconds, so that the plate seems loaded long before a foot is on it.
 //! Pinned by: tests/feet_on_plates.rs
 
 use super::feet::FeetInMotion;

@@ -41,7 +41,7 @@ impl DeviationScaling {
 /// Factors and floors of a component in each fifth of a stance.
 pub type ByFifth = [DeviationScaling; 5];
 
-/// Factor and floor at an elapsed share of the stance: those of the fifths, linear between their middles.
+/// Factor and floor at an elapsed share of the stance: one value per fifth, linear between the middles of the fifths.
 #[must_use]
 pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
     let place = (5.0 * phase - 0.5).clamp(0.0, 4.0);

@@ -25,7 +25,7 @@ const EVERY_S: f64 = 0.0125;
 const REACH: f64 = 3.5;
 /// A filter ends where its coefficients stay below this share of the largest.
 const NEGLIGIBLE: f64 = 0.01;
-/// Longest half of a filter [s]: that of the lowest cut-off frequency that a motion may have is cut there.
+/// Longest half of a filter [s]: a filter at the lowest allowed cut-off frequency is cut there.
 const LONGEST_S: f64 = 0.5;
 /// Frequencies of the quadrature for each bandwidth, up to this multiple of it.
 const PER_BANDWIDTH: usize = 50;

@@ -131,8 +131,8 @@ pub(super) fn loads(
 }
 
 impl EstimateInputs<'_> {
-    /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure
-    /// [m].
+    /// Adds the mean errors of walking and of the person to the force estimates; returns the mean error of the centre
+    /// of pressure [m].
     fn take_errors_off(&self, stance: &Stance, phase: f64, estimates: &mut [Estimate; 6]) -> Vec3 {
         if !repeats(stance) {
             return Vec3::zeros();

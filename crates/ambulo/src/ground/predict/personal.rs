@@ -39,8 +39,8 @@ pub struct PersonalErrors {
     pub excess: f64,
 }
 
-/// Mean errors beyond so many standard deviations of the estimate are those of one person in 300, or of plates,
-/// markers or a mass that do not belong together.
+/// Mean errors beyond so many standard deviations of the estimate come from one person in 300, or from plates, markers
+/// or a mass that do not belong together.
 const USUAL_EXCESS: f64 = 3.0;
 
 /// A person that is not the calibrated one.
@@ -81,7 +81,7 @@ impl PersonalErrors {
         Ok(())
     }
 
-    /// Whether the mean errors are larger than those of nearly all people.
+    /// Whether the mean errors are larger than for nearly all persons.
     #[must_use]
     pub fn is_unusual(&self) -> bool {
         self.excess > USUAL_EXCESS

@@ -1,14 +1,14 @@
 //! Repeatable errors of the estimate over a stance, learned from force plates and taken off.
 //!
 //! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance:
-//! the prior has the strike of other people, the body's segments are not exactly those of the person. What repeats is a
+//! the prior has the strike of other people, the body's segments differ slightly from the person's. What repeats is a
 //! curve over the stance for each component, with a cubic without slope at its ends between [`KNOTS`], so that forces
 //! have no kinks, by least squares:
 //!
 //!   e(u) = Σ_k B_k(u) c_k      (Σ_s w_s Σ_i B B' + λ 1) c = Σ_s w_s Σ_i B (measured - estimated)
 //!
 //! with u the elapsed share of the stance as detected from the motion, w_s equal for stances (of a person) and the
-//! diagonal λ a share of the mean of that of the left side. [`StanceErrors::default`] has no error at all.
+//! diagonal λ a share of the mean diagonal of the left side. [`StanceErrors::default`] has no error at all.
 //!
 //! Of an error with standard deviation σ between stances of a person, a share ρ of the variance repeats in the next
 //! trial of the person ([`REPEATS`]). Then the best linear estimate of the repeatable part after n trials is the mean

@@ -56,8 +56,7 @@ impl FootLoad {
     }
 }
 
-/// The forces in one frame of a window, in which `row` is that of the prediction; `number` and `time_s` are those of
-/// the stream.
+/// The forces in one frame of a window. `row` is its row in the prediction; `number` and `time_s` count in the stream.
 pub(super) fn read(
     model: &Model,
     workspace: &mut Workspace,

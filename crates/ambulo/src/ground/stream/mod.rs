@@ -4,8 +4,8 @@
 //! motion of feet and mass centre is kept for the frames before it. At every frame the newest part is smoothed, stances
 //! are detected in the window, and the forces are predicted in the frame at the delay by the code for whole recordings,
 //! from the steps around it. Only the frames of the delay follow it: the smoothing ends there, and the duration of a
-//! stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with those of a
-//! whole recording.
+//! stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with the errors
+//! for a whole recording.
 //!
 //! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those
 //! frames are never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the

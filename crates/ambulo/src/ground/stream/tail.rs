@@ -6,7 +6,7 @@
 //!   T = ln(1 / ε) / (2π f_c sin(π / (2 n)))
 //!
 //! a frame is settled: 0.49 s at 6 Hz and order 3. Only the frames after it are filtered again, from 2 T before the
-//! newest frame on; derivatives are those of a quintic spline through the filtered frames, as in
+//! newest frame on; derivatives belong to a quintic spline through the filtered frames, as in
 //! [`crate::motion::smooth`], by the weights of its neighbours, which decay by 0.43 a frame.
 //!
 //! | code      | symbol | meaning                                     |

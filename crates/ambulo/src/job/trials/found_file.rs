@@ -51,8 +51,8 @@ impl FoundFile {
         ending(&self.path)
     }
 
-    /// Whether the name is that of a file of a trial. Of a BIDS data set, folders without recordings of their own are
-    /// left out.
+    /// Whether the name can belong to a file of a trial. In a BIDS data set, folders without recordings of their own
+    /// are left out.
     #[must_use]
     pub fn may_be_part(&self, wanted: Wanted, of_bids: bool) -> bool {
         let is_left_out = of_bids && NOT_BIDS_RECORDINGS.iter().any(|folder| self.name.starts_with(folder));

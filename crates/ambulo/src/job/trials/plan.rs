@@ -122,7 +122,7 @@ pub struct Listing<'a> {
 pub struct TrialFolder<'a> {
     /// Its path.
     pub path: &'a Path,
-    /// Its name, which is that of a person whose recordings lie in it.
+    /// Its name: the name of the person whose recordings lie in it.
     pub name: &'a str,
     /// Which recordings are trials.
     pub wanted: Wanted,
@@ -229,7 +229,7 @@ impl<'a> Listing<'a> {
 }
 
 impl Plan {
-    /// Takes a size that is stated for all trials, for those of which nothing else is stated; it is that of one person.
+    /// Uses a size stated for all trials in the trials that state none themselves; it is the size of one person.
     ///
     /// # Errors
     /// A size, and the trials of several persons.

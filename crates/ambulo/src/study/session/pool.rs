@@ -38,7 +38,7 @@ impl CurveStatistics {
         Some(CurveStatistics { mean, sd, count })
     }
 
-    /// Standard deviation over the whole cycle: the root mean square of that of the samples.
+    /// Standard deviation over the whole cycle: the root mean square over the standard deviations of the samples.
     #[must_use]
     pub fn spread(&self) -> Option<f64> {
         self.sd.as_deref().map(rms)

@@ -24,7 +24,7 @@ use crate::model::{BySide, Side};
 use crate::motion::interpolate;
 use crate::numerics::rms;
 
-/// The angles of the profile, those of the pelvis first.
+/// The angles of the profile, pelvis angles first.
 pub const PROFILE: [&str; 9] = [
     "pelvis_tilt_angle",
     "pelvis_obliquity_angle",
@@ -36,7 +36,7 @@ pub const PROFILE: [&str; 9] = [
     "ankle_dorsiflexion_angle",
     "foot_progression_angle",
 ];
-/// Those of the pelvis.
+/// Number of pelvis angles, which come first.
 const OF_PELVIS: usize = 3;
 /// More standard deviations from the mean are outside the normal range: 95 % of a normal distribution are inside.
 const RANGE_SD: f64 = 2.0;

@@ -66,7 +66,7 @@ pub enum NotJudged {
 }
 
 impl TrialKind {
-    /// The kind of a trial; `findings` are those of its computation.
+    /// The kind of a trial; `findings` come from its computation.
     #[must_use]
     pub fn of(outcome: &Outcome, findings: &Findings) -> TrialKind {
         let (activity, model) = (outcome.activity.kind, &outcome.body);
@@ -89,7 +89,7 @@ impl TrialKind {
 }
 
 impl JudgedTrial {
-    /// A trial that was computed with predicted forces and has measured ones; `findings` are those of its computation.
+    /// A trial that was computed with predicted forces and has measured ones; `findings` come from its computation.
     ///
     /// # Errors
     /// A trial without prediction, plates or a whole stance.
@@ -115,7 +115,7 @@ impl JudgedTrial {
         })
     }
 
-    /// Judges tracking as well, which takes about a second per trial; `outcome` is that of the trial.
+    /// Judges tracking as well, which takes about a second per trial; `outcome` belongs to the trial.
     pub fn judge_tracking(&mut self, outcome: &Outcome) {
         self.others.extend(methods::tracking(outcome));
     }
