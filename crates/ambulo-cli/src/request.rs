@@ -1,7 +1,7 @@
 //! Requests: a verb with its files and settings as values, and the same as JSON.
 //!
 //! The command line is parsed into these values; programs and the page in the browser state them in JSON
-//! (docs/REQUESTS.md). Names of fields are those of the types; a field that is left out has the default of its option.
+//! (docs/REQUESTS.md). Fields are named as in the types; a field that is left out has the default of its option.
 
 use crate::args::{
     BatchArgs, DemoArgs, EventsArgs, Existing, Handling, OUT, Outputs, SessionArgs, SimulateArgs, SweepArgs,
@@ -254,7 +254,7 @@ impl Request {
     /// Computes the request and returns its results. Only a batch and a session write files.
     ///
     /// # Errors
-    /// Those of the command; a computation that the caller stopped; a verb that only writes files.
+    /// Errors of the command; a computation that the caller stopped; a verb that only writes files.
     pub fn compute(&self, existing: Existing, caller: &Caller) -> Result<Answer, Failure> {
         let files = self.files();
         let computed = self.handled(Handling::quiet(existing)).computed(caller);

@@ -5,8 +5,8 @@
 //! file that can be read is never asked.
 //!
 //! Sources: git-lfs, docs/spec.md (the first line of a pointer); git-annex, doc/internals.mdwn (paths of objects);
-//! PKWARE, APPNOTE.TXT 4.3; the "magic" numbers of file(1). All from memory, unverified, but for those of formats that
-//! this crate reads. Pinned by: tests/other_contents.rs
+//! PKWARE, APPNOTE.TXT 4.3; the "magic" numbers of file(1). All from memory, unverified, except for formats that this
+//! crate reads. Pinned by: tests/other_contents.rs
 
 use crate::error::Error;
 use crate::plain_text::utf8;

@@ -82,7 +82,7 @@ impl ExternalLoads {
         if loads.datafile.is_none() {
             remarks.push(remark(node, "names no <datafile>; the file of forces must be given separately"));
         }
-        // It turns forces that are stated in the axes of a moving body; those of the ground do not need it.
+        // It turns forces that are stated in the axes of a moving body; forces in ground axes do not need it.
         let is_ground = |body: &str| body.rsplit('/').next().is_some_and(|name| name.eq_ignore_ascii_case("ground"));
         let is_turned = loads.forces.iter().any(|force| !is_ground(&force.force_expressed_in_body));
         if is_turned && assigned(node, "external_loads_model_kinematics_file").is_some() {

@@ -27,7 +27,7 @@ pub(super) fn of_mass(mass: f64) -> Result<Human, ReproductionError> {
     Ok(build.human()?)
 }
 
-/// The figure with another stature [m]; cross-sections and soles keep their ratio to those of its build.
+/// The figure with another stature [m]; cross-sections and soles keep their ratio to its build.
 pub(super) fn rebuilt(human: &Human, height: f64) -> Result<Human, ReproductionError> {
     let plain = human.build.human()?;
     let figure = Build { height, ..human.build }.human()?;

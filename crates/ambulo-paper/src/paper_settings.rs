@@ -31,7 +31,7 @@ pub struct PaperSettings {
     pub style: Style,
     /// Step length of the standard gait [m].
     pub standard_step: f64,
-    /// Whether the curves are those of the speed of this step.
+    /// Whether the curves belong to the speed of this step.
     pub angles_of_the_step: bool,
     /// Factor on the step height of all gaits.
     pub step_height: f64,

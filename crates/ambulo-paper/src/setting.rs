@@ -1,7 +1,7 @@
 //! A setting of the paper's mode: one value for everything that the paper does not give, and its file.
 //!
 //! A file has a name, a description, and the tables `figure`, `gait`, `ground` and `knots`. A value that a file leaves
-//! out is that of the setting `papers-results`. Files that the program writes have all values.
+//! out comes from the setting `papers-results`. Files that the program writes have all values.
 
 use super::claim::{Claim, ClaimKind};
 use super::error::ReproductionError;
@@ -58,7 +58,7 @@ impl Setting {
         NAMED.iter().find(|(own, _)| *own == name).map(|(_, text)| Setting::from_toml(text))
     }
 
-    /// A setting from a file; values that it leaves out are those of [`Setting::papers_results`].
+    /// A setting from a file; values that it leaves out come from [`Setting::papers_results`].
     ///
     /// # Errors
     /// An unknown key, or a value that is not allowed, with its line.

@@ -8,7 +8,7 @@
 //! | ground    | body weights | `ground_force_vertical_r`  |
 //!
 //! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
-//! [`clinical_angles`]; all other numbers are those of the files with OpenSim signs, times a constant.
+//! [`clinical_angles`]; all other numbers come from the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;
@@ -99,12 +99,13 @@ impl<'a> Curves<'a> {
         Curves { not_measured, ..self }
     }
 
-    /// The same per another mass [kg], such as that of the one body of several trials.
+    /// The same per another mass [kg], such as the mass of a body shared by several trials.
     pub(crate) fn per_mass(self, mass_kg: f64) -> Curves<'a> {
         Curves { mass_kg, ..self }
     }
 
-    /// `sources` are those of the loads ([`Outcome::load_sources`]): what depends on an unknown load is not a number.
+    /// `sources` says where loads come from ([`Outcome::load_sources`]): values that depend on an unknown load are not
+    /// a number.
     fn columns(&self, sources: Option<&BySide<Vec<f64>>>) -> Vec<(String, Vec<f64>)> {
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
@@ -175,7 +176,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Values that depend on the load of a foot, without those of unknown loads.
+/// Values that depend on the load of a foot; NaN where the load is unknown.
 fn known(mut values: Vec<f64>, sources: Option<&[f64]>) -> Vec<f64> {
     let unknown = StanceSource::Unknown.number();
     let is_unknown = |source: &f64| source.total_cmp(&unknown).is_eq();

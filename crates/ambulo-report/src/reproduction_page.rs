@@ -111,7 +111,7 @@ const LAWS: [Figure; 2] = [
     },
 ];
 
-/// `report.html` of a reproduction: claims, walks of each mode, and `files`, those of [`super::reproduction_files`].
+/// `report.html` of a reproduction: claims, walks of each mode, and `files` from [`super::reproduction_files`].
 #[must_use]
 pub fn reproduction_page(
     claims: &[Claim],

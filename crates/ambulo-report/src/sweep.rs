@@ -1,7 +1,7 @@
 //! Walks of a sweep over speeds, bodies and ground: tables, envelopes and a page.
 //!
 //! `sweep.csv` has one row per walk, side and percent of the gait cycle; `walks.csv` has one row per walk, with the
-//! extremes of its curves. Quantities, signs and units are those of `clinical.csv` (docs/OUTPUTS.md), and angular
+//! extremes of its curves. Quantities, signs and units are as in `clinical.csv` (docs/OUTPUTS.md), and angular
 //! velocities [deg/s].
 
 use super::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};

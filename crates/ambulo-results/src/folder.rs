@@ -252,7 +252,7 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// The message of an error followed by those of its causes.
+/// The message of an error, followed by the messages of its causes.
 #[must_use]
 pub fn error_chain(error: &(dyn Error + 'static)) -> String {
     let mut text = error.to_string();

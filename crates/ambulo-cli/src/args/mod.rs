@@ -141,7 +141,8 @@ impl PrintArgs {
     pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
 }
 
-// How a request is handled: none of this changes a result. (A doc comment would become that of the subcommand.)
+// How a request is handled: none of this changes a result. (A doc comment here would become the help text of the
+// subcommand.)
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct Handling {
     #[command(flatten)]

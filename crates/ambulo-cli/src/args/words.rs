@@ -46,7 +46,7 @@ pub(super) fn split(line: &str) -> Vec<OsString> {
     words.into_iter().map(OsString::from).collect()
 }
 
-/// A word as a shell takes it: in quotes if it has other characters than those of usual paths.
+/// A word as a shell takes it: in quotes if it has characters that are unusual in paths.
 pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%=".contains(c);
     let mark = if cfg!(windows) { '"' } else { '\'' };

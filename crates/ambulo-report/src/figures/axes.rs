@@ -58,7 +58,7 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
-/// Letters of the font that a browser has may be wider than those of the style's first font by this factor.
+/// Letters of the browser's font may be wider than letters of the style's first font by this factor.
 const WIDER: f64 = 1.15;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;

@@ -1,8 +1,8 @@
 //! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as
 //! `norm.json`.
 //!
-//! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of
-//! people with measured forces, if there are at least two, otherwise predicted ones.
+//! Each subject counts once: the mean of the mean curves of both sides. Moments, powers and ground forces come from
+//! subjects with measured forces, if there are at least two, otherwise from predicted forces.
 //!
 //! ```text
 //! { "format": "ambulo-reference-group", "version": 1, "persons": 12, "ages_years": [8, 14], "speed_m_s": [1.1, 1.4],

@@ -60,7 +60,7 @@ pub struct TrialSummary {
     pub cycles: [usize; 2],
     /// Those that count in the means.
     pub counted: [usize; 2],
-    /// Those of them with measured forces.
+    /// Number of these with measured forces.
     pub measured: [usize; 2],
 }
 

@@ -48,7 +48,7 @@ pub struct ComputedTrial {
 
 impl ComputedTrial {
     /// Takes the cycles of an outcome whose ground forces were predicted, with measured forces where plates measured
-    /// the whole stance of the cycle. Angles of pelvis and hips are those of the chosen convention, where it is
+    /// the whole stance of the cycle. Angles of pelvis and hips follow the chosen convention, where it is
     /// possible.
     #[must_use]
     pub fn of(outcome: &Outcome, chosen: Convention) -> ComputedTrial {

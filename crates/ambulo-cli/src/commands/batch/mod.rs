@@ -111,7 +111,7 @@ fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
     }
 }
 
-/// `trials` are those of all shards.
+/// `trials` are the trials of all shards.
 fn description(args: &BatchArgs, of_trials: &TrialWords, trials: &[PlannedTrial]) -> Description {
     let names: Vec<&str> = trials.iter().map(|trial| trial.name.as_str()).collect();
     Description {

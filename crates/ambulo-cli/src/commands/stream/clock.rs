@@ -1,7 +1,7 @@
 //! Times of frames: from a time to the number of a frame, whatever the unit of the times.
 //!
 //! Frames come at the stated rate, so that times differ by whole periods, mostly by one. Times that always differ by a
-//! thousand periods are in milliseconds, and so on; times that always differ by another number than one are those of
+//! thousand periods are in milliseconds, and so on; times that always differ by another number of periods than one have
 //! another rate.
 
 /// Units of times by their seconds, and how many of them a second has.
@@ -27,7 +27,7 @@ const LARGEST: f64 = 9e15;
 pub enum ClockDoubt {
     /// They are in another unit, which is used from now on.
     Unit(&'static str),
-    /// They are those of another rate [Hz].
+    /// The times have another rate [Hz].
     Rate(f64),
 }
 

@@ -69,7 +69,7 @@ pub(super) struct Conversation<'a> {
     clock: Clock,
     /// Notices about lost and repeated frames that wait until the rate of the times is known; `None` once it is.
     undecided: Option<Vec<(&'static str, u64, String)>>,
-    /// Whether the times are those of another rate, so that regular losses are no news.
+    /// Whether the times have another rate, so that regular losses are not reported again.
     is_other_rate: bool,
     held: Vec<Held>,
     /// Number of the sender for frame 0 of the stream.
@@ -369,7 +369,7 @@ impl<'a> Conversation<'a> {
         Ok(())
     }
 
-    /// Reports the losses that waited, unless the times are those of another rate.
+    /// Reports the losses that waited, unless the times have another rate.
     fn decide(&mut self) {
         for (kind, frame, message) in self.undecided.take().unwrap_or_default() {
             self.loss(kind, frame, message);

@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 /// No angle and no place of a person is larger [rad or m]; glitches of a sender are.
 const LARGEST: f64 = 1e4;
 
-/// A value of a frame: the coordinate of the model that it belongs to, and its unit in that of the model.
+/// A value of a frame: its coordinate in the model, and its unit in units of the model.
 #[derive(Debug, Clone, Copy)]
 struct Slot {
     coordinate: usize,

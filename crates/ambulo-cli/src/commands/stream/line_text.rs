@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// The mark at the beginning of UTF-8, and those of UTF-16.
+/// The byte order marks at the beginning of UTF-8 and UTF-16.
 const MARKS: [&[u8]; 3] = [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"];
 
 /// A line as UTF-8 without a byte order mark. A line of UTF-16, as pipes of PowerShell write it, has the two bytes of
