@@ -104,8 +104,8 @@ impl<'a> Curves<'a> {
         Curves { mass_kg, ..self }
     }
 
-    /// `sources` says where loads come from ([`Outcome::load_sources`]): values that depend on an unknown load are not
-    /// a number.
+    /// The columns of the table. `sources` says where loads come from ([`Outcome::load_sources`]); values that depend
+    /// on an unknown load are NaN.
     fn columns(&self, sources: Option<&BySide<Vec<f64>>>) -> Vec<(String, Vec<f64>)> {
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {

@@ -58,9 +58,9 @@ pub struct TrialSummary {
     pub verdict: Option<String>,
     /// Whole cycles of the right and of the left foot.
     pub cycles: [usize; 2],
-    /// Those that count in the means.
+    /// Cycles that count in the means.
     pub counted: [usize; 2],
-    /// Number of these with measured forces.
+    /// Counted cycles with measured forces.
     pub measured: [usize; 2],
 }
 
