@@ -1,6 +1,6 @@
 //! Hints for errors and findings of the library: the command-line options that help.
 //!
-//! The library knows no options. Its errors and findings carry data; this table adds the hint.
+//! The library has no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};

@@ -127,7 +127,7 @@ impl ForcesRequest {
         self.job.trial.as_deref() == Some(ForcesRequest::ALL_TRIALS)
     }
 
-    /// What is written.
+    /// Settings of the files to write.
     pub(crate) fn outputs(&self) -> Outputs {
         Outputs { convention: self.convention, keep: self.keep.clone() }
     }
@@ -173,7 +173,7 @@ impl From<CalibrateRequest> for Request {
     }
 }
 
-/// What a request computes.
+/// Result of a request.
 pub enum Answer {
     /// Tables, summary and page.
     Results(Box<commands::Results>),

@@ -13,7 +13,7 @@ use crate::plain_text::utf8;
 
 /// Bytes in which a kind of content is looked for.
 const HEAD_BYTES: usize = 4096;
-/// Line breaks and characters below which damage by a program for text is not told from chance.
+/// Fewest line breaks and characters that show damage by a program for text; fewer may be chance.
 const ENOUGH: usize = 4;
 
 /// The kinds of content that readers of this crate expect.
@@ -212,7 +212,7 @@ impl Error {
     }
 }
 
-/// What a program that took a binary file for text has made of it; `None` if its bytes do not show that.
+/// Damage by a program that treated a binary file as text; `None` if the bytes show none.
 pub(crate) fn was_changed_as_text(bytes: &[u8]) -> Option<&'static str> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.chars().filter(|c| !c.is_ascii()).count() >= ENOUGH => {

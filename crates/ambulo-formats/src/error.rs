@@ -15,7 +15,7 @@ pub enum Error {
     /// The content is of another format than the name of the file states.
     #[error("the content is {found}; expected {expected}. hint: {remedy}")]
     OtherContent {
-        /// What the content is.
+        /// Format of the content.
         found: &'static str,
         /// The format that is read.
         expected: &'static str,

@@ -3,7 +3,7 @@
 //! Read: documents of OpenSim 2 and 3 (`<isDisabled>`, a `<defaults>` block) and of OpenSim 4 (`<appliesForce>`), also
 //! without the `<OpenSimDocument>` around them. Written: a document that OpenSim 4 loads.
 //! Not handled, and rejected: `<PrescribedForce>`, which OpenSim 1 and early 2 had in place of `<ExternalForce>`.
-//! Not handled, with a remark: a force with a data source of its own, and a kinematics file for turning its forces.
+//! Not handled, with a remark: a force with a separate data source, and a kinematics file for turning its forces.
 //! Pinned by: tests/loads.rs, tests/malformed.rs, tests/real_files.rs
 
 use crate::error::{Error, Remark, quoted};

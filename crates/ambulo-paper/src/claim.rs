@@ -58,7 +58,7 @@ pub struct Claim {
     pub kind: ClaimKind,
     /// The statement of the paper in short.
     pub paper: &'static str,
-    /// What is required for the claim to hold.
+    /// Criterion for the claim to hold.
     pub criterion: &'static str,
     /// Name of the most important number.
     pub headline: &'static str,
@@ -70,7 +70,7 @@ pub struct Claim {
     pub corrected: Option<Numbers>,
     /// Whether the claim holds in the paper's mode.
     pub pass: bool,
-    /// What was found, and why the claim holds or fails.
+    /// Result, and why the claim holds or fails.
     pub note: String,
     /// The criterion before it was changed, and its judgement of the same walks.
     pub former: Option<FormerJudgement>,

@@ -64,7 +64,7 @@ pub enum SeriesKind {
 pub enum FigureSet {
     /// Figures of the paper: files `figure3` to `figure7`.
     Paper,
-    /// What was put right since: files `corrected_figure3` to `corrected_figure7`.
+    /// Corrected figures: files `corrected_figure3` to `corrected_figure7`.
     Corrected,
 }
 

@@ -6,7 +6,7 @@
 use ambulo_walk::gait::LegJoint;
 use std::sync::LazyLock;
 
-/// What a value is.
+/// Kind and range of a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OpenKind {
     /// A number with its least and largest plausible value.

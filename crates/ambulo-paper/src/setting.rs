@@ -33,7 +33,7 @@ pub const NAMED: [(&str, &str); 2] = [
 pub struct Setting {
     /// Name in results.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub about: String,
     /// Claims of the paper that are known to hold with it; `None` if it was not judged yet.
     pub holds: Option<Vec<String>>,
@@ -278,7 +278,7 @@ fn refuse_unknown(root: &Table<'_>) -> Result<(), TomlError> {
     Ok(())
 }
 
-/// The claims that a file says hold.
+/// The claims that hold according to a file.
 fn read_holds(root: &Table<'_>) -> Result<Option<Vec<String>>, TomlError> {
     let Some(value) = root.get("holds") else { return Ok(None) };
     let known = CLAIMS.map(|id| (id, id));
@@ -322,7 +322,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace(char::is_control, " "))
 }
 
-/// What a value is, its range, source and reason, as lines of comment.
+/// Description, range, source and reason of a value, as lines of comment.
 fn comment(open: &OpenValue) -> String {
     let text = format!("{}: {}. Range: {}. Open because {}.", open.what, open.shown_range(), open.source, open.why);
     wrapped(&text)

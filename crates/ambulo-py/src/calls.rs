@@ -82,7 +82,7 @@ pub(crate) fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Results> {
     py.detach(|| ambulo_cli::open(&folder)).map(Results).map_err(|failure| exception(py, failure))
 }
 
-/// What a request computes.
+/// Computes a request.
 fn answered<'py>(
     py: Python<'py>,
     request: impl Into<Request>,

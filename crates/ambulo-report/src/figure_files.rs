@@ -25,7 +25,7 @@ pub fn figure_files(
     Drawn { model, analysis, reasons, angles, not_measured: &[] }.files()
 }
 
-/// What the figures of a run show.
+/// Content of the figures of a run.
 struct Drawn<'a> {
     model: &'a Model,
     analysis: &'a Analysis,

@@ -3,7 +3,7 @@
 //! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of schwartz2008.toml states
 //! source, licence and layout (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly
 //! between the speeds; outside of them the nearest speed is used and reported. Speeds are dimensionless, V* = V /
-//! sqrt(g L) with leg length L, so that data of children apply to people of any size, as far as gait scales with size.
+//! sqrt(g L) with leg length L, so that data of children apply to persons of any size, as far as gait scales with size.
 
 use ambulo::gait::STANDING_TILT;
 use ambulo_results::Convention;

@@ -176,7 +176,7 @@ fn velocity_of(outcome: &Outcome, quantity: &ClinicalQuantity, side: Side) -> Op
     Some(SweptCurve { id, group: Kind::Velocity, ..curve })
 }
 
-/// The power of a movement that has no panel of its own for it [W/kg].
+/// The power of a movement without a power panel [W/kg].
 fn power_of(
     rows: &[CycleRow],
     quantity: &ClinicalQuantity,

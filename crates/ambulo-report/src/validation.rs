@@ -31,7 +31,7 @@ pub struct ListedTrial {
     pub person: String,
     /// The standing trial.
     pub standing: Option<String>,
-    /// Whether it is a trial of a `.b3d`, which has a model and forces of its own.
+    /// Whether it is a trial of a `.b3d`, which contains a model and forces.
     pub is_subject: bool,
     /// The model; `None` for the built-in body, or the one of the file.
     pub model: Option<String>,

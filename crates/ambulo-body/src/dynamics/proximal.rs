@@ -35,7 +35,7 @@
 //! round. If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as
 //! far as all cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not
 //! converge are passed to [`super::nonsmooth_newton`], if that fails to [`super::relaxed`], and then to the first again
-//! with more patience.
+//! with more rounds.
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after

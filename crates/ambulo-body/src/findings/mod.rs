@@ -57,7 +57,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// A finding as it is written in files: with its severity, for readers that do not know the codes.
+/// A finding as written in files: with its severity, for programs that do not know the codes.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Record {
@@ -102,7 +102,7 @@ impl Findings {
         }
     }
 
-    /// Removes the findings with this code of which a later one knows the true reason.
+    /// Removes the findings with this code for which `is_wrong` is true, because a later finding has the true reason.
     pub fn withdraw(&mut self, code: Code, is_wrong: impl Fn(&str) -> bool) {
         self.list.retain(|finding| finding.code != code || !is_wrong(&finding.message));
     }

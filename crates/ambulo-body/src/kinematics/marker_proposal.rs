@@ -9,7 +9,7 @@
 //! The segment with the least score is proposed, and its landmark if that is near and no other marker is nearer to it.
 //! Otherwise the marker is a technical one.
 //!
-//! Not handled: markers that are not on the body; several people.
+//! Not handled: markers that are not on the body; several persons.
 //! Pinned by: tests/marker_proposal.rs
 
 use super::calibration::{BodyMeasurements, PersonMeasurements, Trial, calibrate};

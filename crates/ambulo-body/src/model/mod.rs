@@ -360,7 +360,7 @@ impl Model {
         &self.bushings
     }
 
-    /// The model with these bushings instead of its own.
+    /// The model with its bushings replaced by these.
     ///
     /// # Errors
     /// A bushing on a body that the model does not have.

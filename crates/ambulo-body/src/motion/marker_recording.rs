@@ -269,8 +269,8 @@ fn is_finite(position: &Vec3) -> bool {
     position.iter().all(|x| x.is_finite())
 }
 
-/// Keeps one trajectory per name: the one that is visible longest, at the position of the first. Where most names of a
-/// body have two points at different places, these are two people.
+/// Keeps one trajectory per name: the one that is visible longest, at the position of the first. If most names of a
+/// body have two points at different places, these are two persons.
 fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Result<Vec<MarkerPath>, MarkerError> {
     let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
     let mut kept: Vec<MarkerPath> = Vec::new();
@@ -297,7 +297,7 @@ fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Result<V
     Err(MarkerError::TwoPeople { count: twice.len(), apart_m, listed: listed.join(", ") })
 }
 
-/// Two people are further from each other than a marker from a ghost of it [m].
+/// Two persons are further apart than a marker and its ghost [m].
 const FROM_PERSON_TO_PERSON_M: f64 = 0.2;
 /// Fewest markers of a person: a pelvis and two legs.
 const OF_A_PERSON: usize = 8;

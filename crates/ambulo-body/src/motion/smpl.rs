@@ -165,7 +165,7 @@ pub enum SmplError {
     NoRotation {
         /// The array.
         array: String,
-        /// What the numbers are.
+        /// Description of the numbers.
         found: String,
         /// Allowed values.
         expected: &'static str,

@@ -131,8 +131,8 @@ pub fn hypot(x: f64, y: f64) -> f64 {
     if SAFE.contains(&square) { square.sqrt() } else { libm::hypot(x, y) }
 }
 
-/// xⁿ by products, for an exponent that is computed; the standard library gives another result when the compiler knows
-/// both numbers.
+/// xⁿ by products, for a computed exponent. (The result of the standard library changes when the compiler knows both
+/// numbers.)
 #[inline]
 #[must_use]
 pub fn powi(x: f64, n: i32) -> f64 {

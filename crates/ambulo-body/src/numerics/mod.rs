@@ -1,10 +1,10 @@
 //! Numerical methods: natural splines and their banded solver, B-splines on uniform knots, band matrices, nonlinear
-//! least squares, evolution strategies, random numbers, statistics, harmonics. Nothing here knows mechanics.
+//! least squares, evolution strategies, random numbers, statistics, harmonics. No mechanics here.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 //!
-//! docs/METHODS.md says which spline, filter and linear system is for what.
+//! docs/METHODS.md lists the use of each spline, filter and linear system.
 
 mod band_cholesky;
 mod banded;

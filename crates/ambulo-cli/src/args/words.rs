@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Words, each option and each value in one of its own.
+/// Words; each option and each value is one word.
 pub(super) struct Words(pub(super) Vec<OsString>);
 
 impl Words {

@@ -107,7 +107,7 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
     Ok(())
 }
 
-/// Says on standard error how many trials are done, on one line where it is a terminal.
+/// Prints the progress of a batch to standard error, on one line if it is a terminal.
 pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, print: PrintArgs) {
     /// Lines of a long batch that is not followed on a terminal.
     const LINES: usize = 20;

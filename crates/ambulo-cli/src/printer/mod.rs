@@ -67,7 +67,7 @@ fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{}", visible(&line.to_string()));
 }
 
-/// Whether a character could change the terminal or what the text around it seems to say: a control code, or a mark
+/// Whether a character could change the terminal or how the text around it reads: a control code, or a mark
 /// that changes the direction of writing or is invisible (Unicode, UAX #9, bidirectional formatting characters).
 pub(crate) fn is_code(c: char) -> bool {
     let is_hidden =
@@ -88,7 +88,7 @@ pub(crate) fn refused(text: &str) -> std::io::Result<()> {
     write!(stderr(), "{}", visible(text))
 }
 
-/// A line of its own.
+/// Prints one line.
 pub(crate) fn line(text: &str) -> Result<()> {
     print_line(text)
 }

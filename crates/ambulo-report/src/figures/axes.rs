@@ -162,7 +162,7 @@ impl<'a> Axes<'a> {
         let width = WIDER * BOLD * text_width(words.title, 1.0);
         let size_in = |room: f64| font.panel_pt.min(room / width.max(f64::MIN_POSITIVE));
         let beside = size_in(right - start - WIDER * text_width(&unit_text, font.label_pt) - 4.0);
-        // A unit that has no place beside a long title stands along the axis.
+        // A unit that does not fit next to a long title is written along the axis.
         let is_beside = beside >= font.note_pt || words.directions != [""; 2];
         let size = if is_beside { beside } else { size_in(right - start) }.max(font.note_pt);
         let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
@@ -267,7 +267,7 @@ pub fn with_power(unit: &str, power: i32) -> String {
     }
 }
 
-/// A number with this many digits, as it stands at an axis.
+/// A number with this many digits, as written at an axis.
 #[must_use]
 pub fn number_text(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$}");

@@ -15,7 +15,7 @@ pub fn contract() -> String {
     parts.concat().iter().fold(head, |text, declaration| text + &format!("\nexport {declaration}\n"))
 }
 
-/// Pages, runs, and what stands at the top.
+/// Pages, runs, and the head of the page.
 fn runs(config: &Config) -> Vec<String> {
     vec![
         Page::decl(config),

@@ -1,5 +1,5 @@
-//! A session of one person: trials pooled, compared with healthy people and with an earlier session, as tables and as a
-//! page.
+//! A session of one person: trials pooled, compared with healthy subjects and with an earlier session, as tables and as
+//! a page.
 //!
 //! | file | content |
 //! |---|---|

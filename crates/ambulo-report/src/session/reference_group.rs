@@ -77,7 +77,7 @@ pub enum ReferenceGroupError {
         /// Their number.
         found: usize,
     },
-    /// People whose angles have different conventions.
+    /// Subjects whose angles have different conventions.
     #[error(
         "the angles of some persons have the clinical convention, those of others that of OpenSim; expected one \
          convention"

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// The layout of the files of a session; another number is another layout.
 pub const SESSION_FORMAT: u32 = 1;
 
-/// Mean and standard deviation, and the number of cycles, trials or people behind them.
+/// Mean and standard deviation, and the number of cycles, trials or subjects behind them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {

@@ -24,7 +24,7 @@ pub struct ChangingWalk {
     walk: Walk,
     /// Consistent walks at the different paces, in the order in which they come.
     paces: Vec<ConsistentWalk>,
-    /// The figure that stands, if it does.
+    /// The standing figure, if it stands at some time.
     standing: Option<(WalkProblem, Solution)>,
     /// The changes in order of time.
     changes: Vec<Change>,

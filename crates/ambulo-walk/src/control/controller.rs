@@ -264,7 +264,7 @@ impl WalkController {
         self.plan.step(self.phase.at).state
     }
 
-    /// Whether it stands: neither walks, nor stops or walks off.
+    /// Whether the figure stands: it neither walks, nor stops or walks off.
     #[must_use]
     pub fn is_standing(&self) -> bool {
         self.phase.at.stage == Stage::Standing
@@ -277,7 +277,7 @@ impl WalkController {
         self.plan.torque_series(&self.feedback.joints, self.phase.step_s)
     }
 
-    /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together
+    /// The largest stiffness by which an angle acts on the torque of the same joint, impedance and feedback together
     /// [N.m/rad].
     #[must_use]
     pub fn largest_stiffness(&self, coordinate: CoordinateId) -> f64 {

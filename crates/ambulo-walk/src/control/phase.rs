@@ -39,12 +39,12 @@ pub(super) struct Sensed<'a> {
     pub(super) loads_n: [f64; 2],
 }
 
-/// The phase of a figure, and what it knows of its feet.
+/// The phase of a figure, and the state of its feet.
 #[derive(Debug, Clone)]
 pub(super) struct Phase {
     /// Share of the cycle and stage.
     pub(super) at: Moment,
-    /// Whether it stands or is about to.
+    /// Whether the figure stands or is about to stand.
     pub(super) stands: bool,
     /// The foot that struck last.
     pub(super) stance: usize,

@@ -107,7 +107,7 @@ impl PhysicalWalk {
         &self.findings
     }
 
-    /// Makes one step, and says whether its equations were solved.
+    /// Makes one step; returns whether its equations were solved.
     ///
     /// # Errors
     /// Joints that do not form trees.

@@ -14,7 +14,7 @@ pub struct ControlSettings {
     pub stiffness: f64,
     /// Damping of the impedance over its stiffness [s].
     pub damping_s: f64,
-    /// What keeps the figure up.
+    /// Balance control.
     pub balance: Balance,
     /// Time after which feedback of the state acts [s]; the state then is foreseen. Muscles need some 40 ms.
     pub delay_s: f64,
@@ -24,7 +24,7 @@ pub struct ControlSettings {
     pub costs: TrackingCosts,
 }
 
-/// What keeps a figure up besides the impedances of its joints.
+/// Balance control in addition to the impedances of joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
     /// Nothing: it falls.
@@ -181,7 +181,7 @@ pub enum ControlError {
          several speeds"
     )]
     Joined {
-        /// What was found.
+        /// Description of what was passed.
         found: String,
     },
     /// A speed that no plan of a controller has.

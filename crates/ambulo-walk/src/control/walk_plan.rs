@@ -1,4 +1,4 @@
-//! What a controller plans: q*, q̇* and τ* at any phase and speed, and in standing.
+//! The plan of a controller: q*, q̇* and τ* at any phase and speed, and in standing.
 //!
 //! Between two speeds v₁ < v < v₂ with plans, and with the share w = (v - v₁) / (v₂ - v₁),
 //!

@@ -234,7 +234,7 @@ impl StepWorkspace {
         }
     }
 
-    /// Sets the displacements that rows ask for at the present positions.
+    /// Sets the displacements that rows require at the present positions.
     fn aim(&mut self, world: &World, state: &WorldState, h: f64) {
         let most = CLOSING_SPEED * h;
         let graph = &self.equations.assembly.graph;

@@ -115,7 +115,7 @@ pub(crate) fn accelerations(
     Ok(first.solution.motions.iter().map(twist).collect())
 }
 
-/// What is known of the effort along an undriven coordinate [N.m or N].
+/// Known part of the effort along an undriven coordinate [N.m or N].
 #[derive(Debug, Clone, Copy)]
 pub(super) enum KnownEffort {
     /// All of it.

@@ -317,8 +317,8 @@ impl RowWriter<'_> {
         true
     }
 
-    /// Aims the normal row of a rigid point at the velocity that its law asks for; returns whether the point acts in
-    /// this step. `u` is the normal velocity at the start of the step.
+    /// Sets the target of the normal row of a rigid point to the velocity that its law requires; returns whether the
+    /// point acts in this step. `u` is the normal velocity at the start of the step.
     fn aim(&self, touch: &mut Touch, row: &mut Constraint, u: f64, restitution: f64) -> bool {
         let (gap, h) = (touch.at.gap, self.span.h);
         let resting = RESTING_STEPS * h * self.world.gravity.norm();

@@ -90,7 +90,7 @@ pub(crate) struct ContactWorkspace {
 /// Scratch of the positions at the end of a step ([`super::projection`]).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ProjectionWorkspace {
-    /// Displacements that rows ask for [m, rad].
+    /// Displacements that rows require [m, rad].
     pub(crate) targets: Vec<f64>,
     /// Displacements of bodies, and of coordinates.
     pub(crate) displacements: Vec<Six>,

@@ -287,7 +287,7 @@ impl Gait {
         })
     }
 
-    /// Whether a transition of a machine reads what only a simulation knows, such as the loads on the feet.
+    /// Whether a transition of a machine reads a value that exists only in a simulation, such as the loads on the feet.
     #[must_use]
     pub(crate) fn machines_read_simulation(&self) -> bool {
         let mut conditions = self.machines.iter().flat_map(|machine| &machine.transitions);

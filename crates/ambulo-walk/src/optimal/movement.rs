@@ -3,7 +3,7 @@
 //!
 //! Key postures give the first guess: joint angles change smoothly from one to the next, the soles are level, and the
 //! lowest sphere touches the ground. Only the first and the last key are part of the problem: there the figure rests.
-//! What happens in between is decided by requirements and by what muscles cost.
+//! The motion in between follows from requirements and from the cost of muscles.
 
 use super::conditions::WalkConditions;
 use super::instant::{Evaluator, Instant};

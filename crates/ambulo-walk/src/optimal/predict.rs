@@ -141,7 +141,7 @@ impl MuscleTerms<'_> {
     }
 }
 
-/// Metabolic power that does not depend on the motion [W/kg]; of standing people (Ralston 1958; unverified).
+/// Metabolic power that does not depend on the motion [W/kg]; measured in standing (Ralston 1958; unverified).
 const RESTING: f64 = 1.4;
 /// Instants of a cycle at which power is computed.
 const POWER_INSTANTS: usize = 400;

@@ -1,4 +1,4 @@
-//! The problem of walking: a figure walks at a given speed with mean curves of healthy people as targets.
+//! The problem of walking: a figure walks at a given speed with mean curves of healthy subjects as targets.
 
 pub(crate) mod passage;
 mod targets;
@@ -90,7 +90,7 @@ pub struct WalkCosts {
     pub force_exponent: f64,
     /// Weight of the normative ground forces in a gait without normative curves; 0 leaves them out.
     pub others: f64,
-    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no
+    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. Measured sideways forces are no
     /// target.
     pub sideways_force: f64,
     /// Deviation of a joint moment from [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle [body weight
@@ -110,10 +110,10 @@ pub struct WalkCosts {
 
 impl WalkCosts {
     /// For a figure in the sagittal plane that walks in any gait at a constant pace. Fewer splines with more instants
-    /// each leave less of the forces at the root between the instants, which a simulation feels. Toes and arms must be
-    /// slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the cheapest way to supply what the
-    /// splines leave at the root, and the solver then finds no smoother walk. Forward forces are followed more closely
-    /// in slow walking, where they are small and yet make the speed rise and fall the most.
+    /// each leave less of the forces at the root between the instants, which acts in a simulation. Toes and arms must
+    /// be slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the cheapest way to supply what
+    /// the splines leave at the root, and the solver then finds no smoother walk. Forward forces are followed more
+    /// closely in slow walking, where they are small and yet make the speed rise and fall the most.
     #[must_use]
     pub fn planar() -> WalkCosts {
         WalkCosts {

@@ -81,7 +81,7 @@ pub enum FigureWalkMode {
     Curves,
 }
 
-/// A coordinate with a drive, motor, spring or start of its own.
+/// A coordinate with its own drive, motor, spring or start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltCoordinate {
     /// Line of its header.

@@ -17,7 +17,7 @@ const SPARE_STEPS: f64 = 10.0;
 const OPEN_M: f64 = 1e-3;
 const OPEN_RAD: f64 = 1e-2;
 
-/// What is checked after each step.
+/// Checks after each step.
 #[derive(Debug, Clone)]
 pub(super) struct SceneChecks {
     /// Watches the energy until it has risen; `None` where it may rise.

@@ -56,7 +56,7 @@ pub fn synthesise(
     }
 }
 
-/// Predicts a walk under some conditions. The mode of the settings is [`SyntheticMode::Predicted`], whatever they say.
+/// Predicts a walk under some conditions. The mode is always [`SyntheticMode::Predicted`]; `settings.mode` is ignored.
 ///
 /// # Errors
 /// As [`synthesise`]; conditions that do not fit the figure, or that its muscles are too weak for.

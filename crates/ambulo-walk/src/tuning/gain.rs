@@ -4,7 +4,7 @@ use crate::control::{ControlError, ControlSettings};
 use crate::numerics::Shown;
 use std::f64::consts::PI;
 
-/// Digits of a gain that was found: more would suggest that trials tell them apart.
+/// Digits of a gain that was found: trials do not resolve more.
 const DIGITS: usize = 4;
 /// Radians per degree, as scenes read degrees.
 const DEGREE: f64 = PI / 180.0;

@@ -1,9 +1,9 @@
 //! Gains of a controller found by trial: which settings survive more pushes and stay nearer to the plan.
 //!
-//! The feedback of a controller follows from its settings by the Riccati equation, which knows the walk near its plan
-//! alone. Strikes at other instants, the limits of muscles and the ankle of a foot that tips are not in it, so settings
-//! that cost least there need not be those that survive the largest pushes. Here [`Cma`](crate::numerics::Cma) changes
-//! them and trials judge them:
+//! The feedback of a controller follows from its settings by the Riccati equation, which describes the walk near its
+//! plan alone. Strikes at other instants, the limits of muscles and the ankle of a foot that tips are not in it, so
+//! settings that cost least there need not be those that survive the largest pushes. Here [`Cma`](crate::numerics::Cma)
+//! changes them and trials judge them:
 //!
 //! - [`Gain`]: a setting by its name in a scene, with bounds.
 //! - [`Push`]: a push at a phase of the cycle; sets are drawn from a seed.

@@ -9,9 +9,9 @@ const EFFORT: f64 = 0.5;
 /// Weight of the error of the speed, as a share.
 const SPEED: f64 = 0.5;
 
-/// What became of a walk and its pushes.
+/// Cost and figures of a walk and its pushes.
 ///
-/// With the time t until a fall after the push and the time T that is asked for,
+/// With the time t until a fall after the push and the required time T,
 ///
 ///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
 ///

@@ -109,7 +109,7 @@ impl TuningProblem {
         self.controller.with_settings(&self.human, settings, &self.maps)
     }
 
-    /// What becomes of a walk with other settings, and of its pushes, which are in the order of their phases.
+    /// Simulates a walk with other settings, and its pushes, which are in the order of their phases.
     ///
     /// # Errors
     /// A walk that cannot be simulated.

@@ -43,7 +43,7 @@ pub struct Task {
     pub settings: ControlSettings,
     /// Its pushes.
     pub pushes: Vec<Push>,
-    /// What the point costs because it lies outside the bounds.
+    /// Cost of the point for being outside the bounds.
     outside: f64,
 }
 

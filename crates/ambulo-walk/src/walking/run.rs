@@ -108,7 +108,7 @@ impl Walker {
         recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows })
     }
 
-    /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for
+    /// Walks until the drives let go, then with torques that do not depend on the motion, until the figure falls or for
     /// `duration_s`. Gives the walk, driven and then free, and the time from the release to the fall [s]; `None` if the
     /// figure has not fallen at the end.
     ///

@@ -172,7 +172,7 @@ pub struct MomentAgreement {
 }
 
 impl PlateCoverage {
-    /// Coverage without markers to tell which foot was on which plate: stances are the times in which a foot's sensor
+    /// Coverage without markers that show which foot was on which plate: stances are the times in which a foot's sensor
     /// was loaded, and stances that are detected in the motion but not by a sensor are excluded from the window.
     #[must_use]
     pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> PlateCoverage {

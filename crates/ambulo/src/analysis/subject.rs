@@ -123,7 +123,7 @@ pub enum MarkerTrialError {
     /// The poses of the segments give no body.
     #[error(transparent)]
     Poses(#[from] JointCentreError),
-    /// The markers of several people.
+    /// The markers of several persons.
     #[error(
         "{recording} has the markers of {} people: {}; expected one person. hint: choose one of them by name",
         people.len(),

@@ -376,7 +376,7 @@ impl PelvisPath {
 
 /// Where the heels are at the strikes, in order of time.
 pub struct Places {
-    /// What the feet stand on.
+    /// The floor under the feet.
     pub floor: Floor,
     /// In order of time.
     pub strikes: Vec<Strike>,

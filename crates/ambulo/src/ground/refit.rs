@@ -14,7 +14,7 @@
 //! | `TURN`, `SHIFT_M` | σ_i | rad, m | usual error of a fitted angle, of a displacement                                         |
 //! | `CHANGING` | ω      | rad/s    | how fast these errors change: a faster change would itself be a force                      |
 //!
-//! Heights are not changed. Animation knows the same task as the clean-up of sliding feet.
+//! Heights are not changed. In animation the same task is called the clean-up of sliding feet.
 //!
 //! Solved by two Gauss-Newton steps with numerical derivatives of the poses, over all frames at once: a band matrix
 //! with 2 n bands for n coordinates. Cost: about 0.3 ms and 16 n² bytes per frame.

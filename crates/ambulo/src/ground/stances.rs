@@ -34,7 +34,7 @@ const CARRIED_SHARE: f64 = 0.85;
 const TOUCH_SHARE: f64 = 0.1;
 /// A predicted load begins and ends within this time outside of its stance [s].
 const RAMP_S: f64 = 0.03;
-/// Shorter times have no residual of their own [s].
+/// Shorter times have no separate residual [s].
 const SHORTEST_WINDOW_S: f64 = 0.05;
 
 /// A stance of one foot.
@@ -119,7 +119,7 @@ pub(crate) struct LoadedTime {
 }
 
 impl LoadedTime {
-    /// The loads of force plates on a foot of their own.
+    /// The loads of force plates with one foot each.
     pub(crate) fn on_plates(on_plates: &FeetOnPlates) -> Vec<LoadedTime> {
         let of_contact = |contact: &PlateContact| {
             let is_own =

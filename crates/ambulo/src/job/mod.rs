@@ -169,7 +169,7 @@ pub struct ForceFiles {
     pub left: Option<FootColumns>,
 }
 
-/// What is read or computed once for several jobs of a person. Clones share it.
+/// Data that are read or computed once for several jobs of a person. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Shared {
     standing_trials: StandingTrials,

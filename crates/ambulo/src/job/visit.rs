@@ -1,6 +1,6 @@
 //! The trials of a visit, computed with one body.
 //!
-//! 1. Every trial is computed with a body of its own.
+//! 1. Every trial is computed with its own body.
 //! 2. Where the bodies are the same, because a model or a standing trial with a known mass gives them, this is all.
 //! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this
 //!    mass, from the standing trial or, without one, from the trial whose markers lie nearest to their body; the other

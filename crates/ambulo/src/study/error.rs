@@ -22,7 +22,7 @@ pub enum StudyError {
     Clock {
         /// Median time between samples [s].
         step_s: f64,
-        /// What the number looks like.
+        /// The quantity that the number probably is.
         looks_like: &'static str,
         /// The time between samples that is probably meant [s].
         seconds: f64,

@@ -149,9 +149,9 @@ impl MassEstimate {
 /// Estimates of the mass that do not need the motion.
 #[derive(Debug, Clone, Default)]
 pub struct KnownMass {
-    /// What the user states.
+    /// Mass stated by the user.
     pub stated: Option<MassEstimate>,
-    /// What the plates weigh in a standing trial.
+    /// Mass from the plates in a standing trial.
     pub standing: Option<MassEstimate>,
 }
 
@@ -176,7 +176,7 @@ impl KnownMass {
         KnownMass { stated: stated.map(MassEstimate::stated), standing }
     }
 
-    /// Whether the motion on the plates is needed to know the mass.
+    /// Whether the mass must be determined from the motion on the plates.
     pub fn needs_motion(&self) -> bool {
         match (&self.stated, &self.standing) {
             (Some(stated), Some(standing)) => !stated.agrees(standing),

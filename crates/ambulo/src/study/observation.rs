@@ -127,7 +127,7 @@ impl Observation {
         Ok(())
     }
 
-    /// Whether forces are predicted: if that is wanted, or if no forces were measured.
+    /// Whether forces are predicted: on request, or if no forces were measured.
     pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
         match (&self.origin, settings.ground) {
             (Origin::Simulation { .. }, _) | (_, GroundSettings::NoContact) => false,
@@ -230,7 +230,7 @@ impl Statements {
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
         let model = self.stated.applied(model, findings)?;
-        // A load makes nobody stronger.
+        // A carried load does not change the person's strength.
         let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
         let model = self.loaded(model)?;
         self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)

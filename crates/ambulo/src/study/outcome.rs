@@ -70,7 +70,7 @@ pub struct Processing {
     pub smoother: Smoother,
     /// Low-pass of the measured forces.
     pub force_filter: Option<LowPass>,
-    /// The time range that was asked for, or that long gaps of markers leave.
+    /// The requested time range, or the range that long gaps of markers leave.
     pub window: Window,
 }
 

@@ -165,20 +165,20 @@ pub enum MarkerBody {
 pub struct PlateAssignment {
     /// The plate, counted from 0 in the order of the file.
     pub plate: usize,
-    /// What is known of it.
+    /// Which foot is on it, or what is wrong with it.
     pub(crate) used: PlateUse,
 }
 
-/// What the laboratory knows of a force plate.
+/// Which foot is on a force plate, or what is wrong with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlateUse {
     /// One foot was on it.
     Foot(Side),
-    /// Nobody was; what it measured is left out.
+    /// No foot was on it; its recording is left out.
     Off,
     /// Its force along x (0) or y (1) has the wrong sign.
     Flip(usize),
-    /// What it measured is right when it is turned to the left, as seen from above, by these quarters.
+    /// Its recording must be turned to the left, as seen from above, by this many quarters.
     Turn(i32),
 }
 

@@ -71,7 +71,7 @@ struct Weighed {
 }
 
 impl<'a> Carried<'a> {
-    /// `body`: the body that followed markers, which knows the feet on plates; without plates the motion shows which
+    /// `body`: the body that followed markers, which has the feet on plates; without plates the motion shows which
     /// stances the forces lack.
     pub(super) fn new(
         model: &Model,

@@ -43,7 +43,7 @@ const PROPORTION: f64 = 0.15;
 /// The same between a body whose size is not determined and its neighbour.
 const TIED: f64 = 0.01;
 const ENOUGH: usize = 3;
-/// The same between left and right: leg lengths differ by 1 % in most people.
+/// The same between left and right: leg lengths differ by 1 % in most persons.
 const SIDE: f64 = 0.01;
 /// The same between the whole body and the model.
 const WHOLE: f64 = 0.5;

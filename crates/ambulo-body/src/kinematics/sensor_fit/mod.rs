@@ -143,7 +143,7 @@ pub fn fit_sensors(
         tasks: Vec::new(),
         ..settings.clone()
     };
-    // Its findings speak of markers; gaps of sensors are reported here.
+    // Findings of the marker fit would name markers, so they are dropped; gaps of sensors are reported here.
     let fit = fit_markers(&fitted, &tips, &settings, &mut Findings::default())?;
     report_gaps(trial.moving, &placed, findings);
     let rms = |name: String| fit.errors.iter().find(|error| error.name == name).map_or(0.0, |error| error.rms_m);

@@ -65,7 +65,7 @@ use super::{Model, ModelError, Side};
 use crate::numerics::Shown;
 use crate::spatial::InertiaError;
 
-/// Range of body masses [kg]: from infants to the heaviest people who walk.
+/// Range of body masses [kg]: from infants to the heaviest persons who walk.
 const MASS_RANGE: [f64; 2] = [2.0, 300.0];
 /// Range of statures [m].
 const HEIGHT_RANGE: [f64; 2] = [0.4, 2.5];

@@ -10,7 +10,7 @@
 
 use crate::numerics::median;
 
-/// Weights of people, from a small child to the heaviest [N].
+/// Range of body weights, from a small child to the heaviest person [N].
 const PERSON_N: [f64; 2] = [50.0, 3000.0];
 /// Without a known mass, steps between these are persons in newtons, whatever they carry [N].
 const NEWTONS: [f64; 2] = [20.0, 12_000.0];
@@ -23,7 +23,7 @@ const SAME_UNIT: f64 = 1.05;
 const STEP_S: [f64; 2] = [0.12, 1.6];
 /// A step begins and ends at this share of the largest force.
 const LOADED: f64 = 0.1;
-/// In its middle it carries at least this share of its own largest force: the dip of a walk is 0.6 to 0.9.
+/// In the middle of a step the force is at least this share of its largest value: the dip of a walk is 0.6 to 0.9.
 const HELD: f64 = 0.3;
 /// Stance over the time between two steps in walking.
 const WALK_STANCE: f64 = 1.2;
@@ -31,7 +31,7 @@ const WALK_STANCE: f64 = 1.2;
 const RUN_STEP_S: f64 = 0.36;
 const RUN_STANCE_S: f64 = 0.4;
 
-/// Units in which forces of people are found although files state newtons, or nothing.
+/// Units in which files have ground forces although they state newtons, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceUnit {
     /// Thousands of newtons.
@@ -93,7 +93,8 @@ fn off(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
 
-/// What the whole steps in a vertical force weigh, in the unit of the force; `None` without a whole step, as in noise.
+/// Body weight: the median of [`weight_of`] over the whole steps in a vertical force, in the unit of the force; `None`
+/// without a whole step, as in noise.
 #[must_use]
 pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
@@ -111,7 +112,7 @@ pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     (2 * weights.len() >= loaded.len()).then(|| median(weights)).flatten()
 }
 
-/// What one step weighs; `None` if it is none.
+/// Body weight from one step: mean force times stance time over step time; `None` if the load is no step.
 fn weight_of(run: &[usize], times: &[f64], load: &[f64]) -> Option<f64> {
     let (first, last) = (*run.first()?, *run.last()?);
     let stance_s = times[last] - times[first];

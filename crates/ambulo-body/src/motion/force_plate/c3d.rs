@@ -97,7 +97,7 @@ fn described(file: &C3d, findings: &mut Findings) -> Result<Vec<(usize, Platform
     Ok(found)
 }
 
-/// What a step weighs in body weights, within the error of a single step.
+/// Weight of a step in body weights, within the error of a single step.
 const BODY_WEIGHT: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// A free moment of a foot has about this lever [m]: some newton metres under the weight of a person.
 const FREE_LEVER_M: f64 = 0.005;

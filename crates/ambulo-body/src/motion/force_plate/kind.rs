@@ -22,7 +22,7 @@
 //!
 //! Source: C3D User Guide (Motion Lab Systems), pages on FORCE_PLATFORM:TYPE, ORIGIN, CHANNEL, CAL_MATRIX at c3d.org;
 //! types 3, 5, 6, 7: Visual3D's pages on FP_TYPE; type 5 as well: BTK's `ForcePlatformType5`. The moments are derived
-//! from M = Σ r × f. Visual3D's page on type 7 has signs of its own (Mz with +Fy23), which no rigid plate has.
+//! from M = Σ r × f. Visual3D's page on type 7 has other signs (Mz with +Fy23), which no rigid plate has.
 //! Pinned by: tests/force_plate.rs
 
 use crate::spatial::{Vec3, Wrench};

@@ -36,8 +36,8 @@ impl PlateRecording {
         Some(PlateRecording { corners, center_from_sensors: turn * self.center_from_sensors, ..read })
     }
 
-    /// What the plate measured, turned about the vertical through its centre by this many quarters, to the left as seen
-    /// from above.
+    /// The recording of the plate, turned about the vertical through its centre by this many quarters, to the left as
+    /// seen from above.
     #[must_use]
     pub fn turned(&self, quarters: i32) -> PlateRecording {
         let up = self.up;

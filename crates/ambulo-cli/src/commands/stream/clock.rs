@@ -22,12 +22,12 @@ const OTHER_RATE: f64 = 0.05;
 /// Largest number of a frame.
 const LARGEST: f64 = 9e15;
 
-/// What the times of frames show.
+/// Unusual times of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ClockDoubt {
     /// They are in another unit, which is used from now on.
     Unit(&'static str),
-    /// The times have another rate [Hz].
+    /// They have another rate [Hz].
     Rate(f64),
 }
 
@@ -50,7 +50,7 @@ impl Clock {
         Clock { rate_hz, per_second: 1.0, last: None, intervals: Vec::new(), is_judged: false }
     }
 
-    /// Whether the rate of the times is known, so that losses can be told from another rate.
+    /// Whether the rate of the times is known, so that losses and another rate can be distinguished.
     #[must_use]
     pub fn is_judged(&self) -> bool {
         self.is_judged

@@ -215,7 +215,7 @@ impl<'a> Conversation<'a> {
         self.survive(taken)
     }
 
-    /// Says what was wrong; only a model that no frame can be computed of is an error.
+    /// Reports an error of a frame and goes on; only a model with which no frame can be computed ends the stream.
     fn survive(&mut self, done: Result<()>) -> Result<()> {
         match done {
             Err(error) if error.downcast_ref().is_some_and(is_of_the_model) => Err(error),
@@ -553,7 +553,8 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// Says something about the frames: a few times on standard error, always in the answers that have room for words.
+    /// Reports a notice about the frames: a few times on standard error, always in answers of formats that have
+    /// notices.
     pub(super) fn notice(&mut self, kind: &'static str, frame: Option<u64>, message: String) {
         let counted = match self.counts.notices.iter_mut().find(|(other, _)| *other == kind) {
             Some((_, count)) => {

@@ -45,7 +45,7 @@ impl Message {
         self.coordinates.is_some() || self.angles.is_some()
     }
 
-    /// Whether the message says anything.
+    /// Whether the message has content.
     pub(super) fn has_content(&self) -> bool {
         self.names_coordinates() || self.names_markers() || self.q.is_some() || self.markers.is_some()
     }
@@ -120,7 +120,7 @@ pub(super) enum Answer {
         time: f64,
         values: Vec<f32>,
     },
-    /// Something to know about the frames.
+    /// A notice about the frames.
     Notice {
         notice: &'static str,
         #[serde(skip_serializing_if = "Option::is_none")]

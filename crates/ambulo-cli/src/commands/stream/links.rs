@@ -49,7 +49,7 @@ pub(super) fn serve(
     Ok(())
 }
 
-/// What was read.
+/// Result of reading.
 enum Taken {
     Message,
     /// The time for a message was over.

@@ -31,7 +31,7 @@ impl Read for Patient<'_> {
     }
 }
 
-/// Whether an error says that the time was over.
+/// Whether an error is a timeout.
 pub(super) fn is_over(kind: ErrorKind) -> bool {
     // Systems name it differently.
     matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut)

@@ -43,7 +43,7 @@ fn mean(results: &Results, quantity: StrideQuantity) -> Option<f64> {
     Some(results.summary.times_and_distances.quantity(quantity)?.both?.mean)
 }
 
-/// How far the ground forces can be trusted: the standard deviation of predicted ones, the residual of measured ones.
+/// Uncertainty of the ground forces: the standard deviation of predicted ones, the residual of measured ones.
 fn uncertainty(results: &Results) -> Option<String> {
     if results.source != PageSource::Predicted {
         let residual = results.summary.residual.as_ref();
@@ -75,7 +75,8 @@ pub struct Deviation<'a> {
     /// Whose side.
     pub side: Side,
     /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy
-    /// people. The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
+    /// subjects. The ratio is not formed point by point: the standard deviation of a ground force is near zero in
+    /// swing.
     pub in_sd: f64,
     /// Where it is farthest [% of the cycle].
     pub at_percent: usize,

@@ -124,7 +124,7 @@ impl Condition {
         }
     }
 
-    /// Whether the condition reads what only a simulation knows: loads on the feet, angles, signals.
+    /// Whether the condition reads a value that exists only in a simulation: loads on the feet, angles, signals.
     #[must_use]
     pub(crate) fn reads_simulation(&self) -> bool {
         match self {

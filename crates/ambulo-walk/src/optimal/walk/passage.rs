@@ -13,8 +13,8 @@
 //! because the Fourier transform of the spline is (sin(ω/2)/(ω/2))⁶. These coefficients keep their value. Value, rate
 //! and acceleration are exact; the other two are differences of the acceleration.
 //!
-//! **The first guess** is what the gait asks for, changed as both motions are: with the share R of the change, the
-//! share of walking w and the changes c₀, c₁ of both walks at the same phase φ,
+//! **The first guess** is the motion that the gait plans, changed as both motions are: with the share R of the change,
+//! the share of walking w and the changes c₀, c₁ of both walks at the same phase φ,
 //!
 //!   q = q_gait(t) + w [(1 - R) c₀(φ) + R c₁(φ)]
 
@@ -155,7 +155,7 @@ pub fn coefficient([p, d1, d2, d3, d4]: [f64; 5], c: f64) -> f64 {
 }
 
 impl Passage<'_> {
-    /// The first guess at some times [s], from what the gait asks for.
+    /// The first guess at some times [s], from the posture `asked` that the gait plans.
     fn guess(&self, model: &Model, walk: &Walk, times_s: &[f64], asked: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let count = model.coordinates().len();
         let along = forward(model);
@@ -196,7 +196,7 @@ impl PassageEnd<'_> {
         if is_standing { f64::INFINITY } else { 2.0 * duration_s * costs.knots as f64 / knots as f64 }
     }
 
-    /// The motion that the gait asks for.
+    /// The motion that the gait plans.
     fn gait(&self) -> Result<Solution, CurvedJointError> {
         self.problem.problem.at(&self.problem.guess)
     }

@@ -1,7 +1,7 @@
 //! Targets of a walk at some instants: normative curves, and targets of the machines of its gait.
 //!
 //! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between
-//! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the force of people who walk,
+//! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the normative force of walking,
 //! and s is the share of the foot in the load of both: the normative share while the figure moves, and one half where
 //! it almost stands.
 
@@ -82,7 +82,7 @@ impl<'a> Targets<'a> {
         times_s.iter().map(|time_s| self.target(*time_s)).collect()
     }
 
-    /// The posture that the machines of the gait ask for. Machines of a gait file remember, so they are stepped from
+    /// The posture that the machines of the gait plan. Machines of a gait file have a state, so they are stepped from
     /// their beginning on.
     fn asked(&mut self, time_s: f64) -> WalkPosture {
         if !self.walk.gait().machines.is_empty() {

@@ -9,12 +9,12 @@
 //! laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 //!
 //! The last terms come from the trial itself. m_F and m_P are what the estimate leaves of the force and of the moment
-//! that the motion requires ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is
-//! fast, gives larger errors. F_side is the sideways force, for the force forward and sideways: in a turn both depend
-//! on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all people, among 0,
-//! 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which deviations
-//! calibrated on walks with all markers hold more than 85 % of the same walks without the markers above the pelvis (the
-//! last table of the page).
+//! that the motion requires ([`super::misfit`]): motion that contradicts itself, because markers are missing or because
+//! it is fast, gives larger errors. F_side is the sideways force, for the force forward and sideways: in a turn both
+//! depend on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all subjects,
+//! among 0, 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which
+//! deviations calibrated on walks with all markers hold more than 85 % of the same walks without the markers above the
+//! pelvis (the last table of the page).
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]

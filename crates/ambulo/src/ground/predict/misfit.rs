@@ -10,7 +10,7 @@
 //! | `arm`     | r        | m    | from the mass centre to the expected centre of pressure |
 //!
 //! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces
-//! of walking: for want of markers (on the trunk, say), or because the body moves fast.
+//! of walking: because markers are missing (on the trunk, for example), or because the body moves fast.
 
 use super::deviation_calibration::Misfit;
 use super::evidence_filter::{EvidenceFilter, EvidenceFilters};

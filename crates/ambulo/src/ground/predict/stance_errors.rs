@@ -1,7 +1,7 @@
 //! Repeatable errors of the estimate over a stance, learned from force plates and taken off.
 //!
 //! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance:
-//! the prior has the strike of other people, the body's segments differ slightly from the person's. What repeats is a
+//! the prior has the strike of other subjects, the body's segments differ slightly from the person's. What repeats is a
 //! curve over the stance for each component, with a cubic without slope at its ends between [`KNOTS`], so that forces
 //! have no kinks, by least squares:
 //!
@@ -28,7 +28,7 @@ const RIDGE: f64 = 0.1;
 /// errors of subjects and laboratories left out.
 const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
 /// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the
-/// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two people with five
+/// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two subjects with five
 /// trials or stances of a foot.
 pub const REPEATS: f64 = 0.67;
 

@@ -50,7 +50,7 @@ pub struct Stance {
     pub speed: f64,
     /// Of what the stance is a part.
     pub gait: GaitType,
-    /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with
+    /// Time until which only the forefoot is on the ground after a forefoot strike; `None` after a strike with
     /// the heel [s].
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.

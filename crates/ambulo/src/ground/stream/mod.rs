@@ -50,7 +50,7 @@ const WINDOWS_S: [f64; 2] = [1.0, 60.0];
 /// A delay is rounded down to whole frames, unless it is this close to the next one [frames].
 const NEAR_A_FRAME: f64 = 1e-6;
 /// The prediction uses every n-th frame where that leaves at least this rate [Hz]: of a motion filtered at 6 Hz more
-/// frames say no more.
+/// frames contain no more information.
 const WORKING_RATE_HZ: f64 = 100.0;
 /// Number of frames that a quintic spline needs.
 const FEWEST_FRAMES: usize = 6;

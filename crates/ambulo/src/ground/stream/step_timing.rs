@@ -1,6 +1,6 @@
 //! Predicts the foot offs and foot strikes after the newest frame.
 //!
-//! People step regularly: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to
+//! Steps are regular: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to
 //! 30 ms (Owings, Grabiner 2004, unverified). Foot off is therefore expected at the usual time after the other foot's
 //! strike, or, before that strike, after a usual stance; foot strike is expected one stride after the previous one. An
 //! event that is overdue by a time x is expected after another x: for a person who stops walking, continued stance is

@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 pub const LIST: &str = "trials.toml";
 /// Words in the names of tables of ground forces.
 const FORCES: [&str; 4] = ["grf", "force", "forces", "plates"];
-/// Words in the names of recordings that say only what kind of recording it is.
+/// Words in names of recordings that state only the kind of recording.
 const RECORDINGS: [&str; 10] =
     ["ground", "reaction", "marker", "markers", "motion", "capture", "mocap", "ik", "kinematics", "coordinates"];
 /// Words in the names of standing trials, of which the first one with such a name is preferred.
@@ -68,7 +68,7 @@ pub struct Plan {
     pub standing: Vec<String>,
 }
 
-/// What a recording is, and whose.
+/// Kind and person of a recording.
 #[derive(Debug, Clone)]
 pub struct Content {
     kind: Kind,
@@ -176,7 +176,7 @@ impl<'a> Listing<'a> {
         self.recordings.len()
     }
 
-    /// What a recording is, by its number.
+    /// The content of a recording, by its number.
     pub fn content(&self, number: usize, files: &mut dyn Files) -> Content {
         let (file, stated) = &self.recordings[number];
         if stated.excluded.is_some() || !is_of_markers(file) {
@@ -197,7 +197,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The trials. `contents` says what each recording is.
+    /// The trials. `contents` has the kind and the person of each recording.
     #[must_use]
     pub fn plan(self, contents: &[Content], files: &mut dyn Files) -> Plan {
         let mut plan = Plan { read: self.read.clone(), ..Plan::default() };
@@ -372,7 +372,7 @@ fn words(file: &FoundFile) -> impl Iterator<Item = String> {
     words.into_iter()
 }
 
-/// The words that say which trial it is.
+/// The words that identify the trial.
 fn own_words(file: &FoundFile) -> BTreeSet<String> {
     words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
 }

@@ -1,4 +1,4 @@
-//! Movement analysis profile, gait profile score, and deviations from the mean of healthy people.
+//! Movement analysis profile, gait profile score, and deviations from the mean of healthy subjects.
 //!
 //!   GVS_q  = √( mean over t of (x_q(t) - n_q(t))² )
 //!   GPS    = √( mean over q of GVS_q² )          over the nine angles of a side

@@ -46,7 +46,7 @@ pub struct JudgedTrial {
     pub agreement: GroundAgreement,
     /// The whole stances on plates, predicted and measured.
     pub stances: Vec<ComparedStance>,
-    /// Agreement of other methods: the simple rules, and tracking if it was asked for and found a motion.
+    /// Agreement of other methods: the simple rules, and tracking if it was requested and found a motion.
     pub others: Vec<(Method, GroundAgreement)>,
 }
 
