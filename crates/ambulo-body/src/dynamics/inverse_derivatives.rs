@@ -12,7 +12,7 @@
 //!
 //!   ∂τ_i/∂q̈_j = S_iᵀ I_jᶜ S_j                                    ∂τ_j/∂q̈_i = the same
 //!   ∂τ_i/∂q̇_j = 2 S_iᵀ (B_jᶜ S_j + I_jᶜ Ψ̇_j)                      ∂τ_j/∂q̇_i = 2 S_jᵀ (B_jᶜ S_i + I_jᶜ Ψ̇_i)
-//!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)         ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
+//!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)    ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
 //!
 //! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part
 //! only: B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).

@@ -4,7 +4,7 @@
 //! freedom and all bodies attached to it in this way are one body for the solver. With C their common mass centre,
 //!
 //!   a_c = X_c a_C + W_c          W_c = X W_p + w_c          W = 0 for the first of them
-//!   A_C = Σ X_cᵀ A_c X_c         b_C = Σ X_cᵀ (b_c - A_c W_c)          j_C = X_cᵀ j_c          target_C = target - j_c W_c
+//!   A_C = Σ X_cᵀ A_c X_c        b_C = Σ X_cᵀ (b_c - A_c W_c)        j_C = X_cᵀ j_c         target_C = target - j_c W_c
 //!
 //! which is again a rigid body with its inertia about its mass centre. A walking figure whose joints are all driven
 //! becomes one body with two free directions, whatever the number of its bodies, and a Newton step costs no more than

@@ -4,7 +4,9 @@
 //! body of the size that fits best is compared with the highest posture of the recording. For a marker p and a segment
 //! with poses T(t):
 //!
-//!   score = w · spread + distance        spread: standard deviation of T(t)⁻¹ p(t); distance: to the nearest landmark of the segment
+//!   score = w · spread + distance
+//!
+//! with the spread, the standard deviation of T(t)⁻¹ p(t), and the distance to the nearest landmark of the segment.
 //!
 //! The segment with the least score is proposed, and its landmark if that is near and no other marker is nearer to it.
 //! Otherwise the marker is a technical one.

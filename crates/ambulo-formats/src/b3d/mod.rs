@@ -6,7 +6,8 @@
 //! SubjectOnDiskHeader      a message of Protocol Buffers: person, models, markers, one header per trial
 //! for each trial, for each of its frames:
 //!     SubjectOnDiskSensorFrame          in `raw_sensor_frame_size` bytes: what was recorded
-//!     SubjectOnDiskProcessingPassFrame  in `processing_pass_frame_size` bytes, once for each pass of the trial: what was computed
+//!     SubjectOnDiskProcessingPassFrame  in `processing_pass_frame_size` bytes, once for each pass of the trial:
+//!                                       what was computed
 //! ```
 //!
 //! Lengths are metres, angles radians, forces newtons, in axes with y up; the ground acts on the bodies. Positions of

@@ -4,7 +4,8 @@
 //! length of name (negative: locked), number (negative: a group, else the group it belongs to), name,
 //! offset to the next record (counted from this word; 0: the last), then
 //!   group:     length of description, description
-//!   parameter: type (-1 text, 1 byte, 2 integer, 4 real), number of dimensions, dimensions, values, length of description, description
+//!   parameter: type (-1 text, 1 byte, 2 integer, 4 real), number of dimensions, dimensions, values,
+//!              length of description, description
 //! ```
 //!
 //! The offset is unsigned, so a chain only goes forwards and ends with the file at the latest.

@@ -6,7 +6,8 @@
 //!
 //! ```text
 //! { "format": "ambulo-reference-group", "version": 1, "persons": 12, "ages_years": [8, 14], "speed_m_s": [1.1, 1.4],
-//!   "convention": "clinical", "curves": { "knee_flexion_angle": { "unit": "deg", "persons": 12, "forces": null, "mean": [101], "sd": [101] } },
+//!   "convention": "clinical",
+//!   "curves": { "knee_flexion_angle": { "unit": "deg", "persons": 12, "forces": null, "mean": [101], "sd": [101] } },
 //!   "times": { "cadence": { "mean": 118, "sd": 7, "n": 12 } } }
 //! ```
 

@@ -3,7 +3,7 @@
 //! On the segment between knots k and k+1, with phase φ [cycles] and dimensionless speed V*:
 //!
 //! ```text
-//! w = p_{k+1}(V*) - p_k(V*),   u = (φ - p_k(V*)) / w,   angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
+//! w = p_{k+1}(V*) - p_k(V*),  u = (φ - p_k(V*)) / w,  angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
 //! ```
 //!
 //! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), because w is above zero. Let D be the

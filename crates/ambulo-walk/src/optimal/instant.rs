@@ -4,7 +4,8 @@
 //! With the spatial wrench W of the ground on a foot and the axes S of the links that carry it (as in
 //! [`crate::dynamics::inverse_derivatives`]), the ground force adds to the generalised forces and their derivatives
 //!
-//!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
+//!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
+//!   ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j
 //!
 //! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both
 //! surfaces as in the simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, the

@@ -3,7 +3,8 @@
 //! Joint angles that a program fitted without knowledge of the floor let loaded feet slide. The coordinates that move
 //! the soles are changed by δ:
 //!
-//!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p² + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
+//!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p²
+//!                           + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
 //!
 //! | code       | symbol | unit     | meaning                                                                                    |
 //! | `points`   | p      | m        | rear, ball and tip of a sole; h takes the horizontal part                                  |

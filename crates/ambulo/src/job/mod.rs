@@ -5,7 +5,7 @@
 //!    |
 //!   read    the caller reads the files; kinds of recording are recognised, contradictions are rejected
 //!    v
-//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
+//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files read
 //! ```
 //!
 //! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of

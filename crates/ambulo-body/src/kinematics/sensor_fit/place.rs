@@ -3,7 +3,7 @@
 //! A sensor shows how a segment is turned, not where it is. With the root at the origin, forward kinematics gives the
 //! points k of the soles, x_k(t). The lowest ones are on the ground and do not move: the root is at
 //!
-//!   height:  h(t) = -Σ w_k y_k / Σ w_k                 along the floor:  p(t+dt) = p(t) - Σ w_k (x_k(t+dt) - x_k(t)) / Σ w_k
+//!   height:  h(t) = -Σ w_k y_k / Σ w_k           along the floor:  p(t+dt) = p(t) - Σ w_k (x_k(t+dt) - x_k(t)) / Σ w_k
 //!
 //!   w_k = exp(-(y_k - y_min)/ε) exp(-|v_k - v_min|²/2σ²)
 //!

@@ -6,7 +6,8 @@
 //! from the markers on the spines:
 //!
 //!   right   = from the left to the right anterior spine
-//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones, perpendicular to `right`
+//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones,
+//!             perpendicular to `right`
 //!   up      = right × forward
 //!
 //! Source: Kadaba 1990, Davis 1991, as in Plug-in-Gait (unverified); compared with its angles in

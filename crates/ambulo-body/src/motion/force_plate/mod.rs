@@ -3,7 +3,7 @@
 //! With R the axes of the plate in the laboratory, C the centre of its surface, n the upward normal, and F, M the force
 //! and its moment about C in the plate's axes (kind.rs):
 //!
-//!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
+//!   F_lab = R F         M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
 //!
 //! | code                   | symbol | unit | meaning                                     |
 //! | `force`                | F_lab  | N    | of the plate on the foot                    |

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! any  = all { "or" all }            all = one { "and" one }            one = "not" one | "(" any ")" | test
-//! test = "after" NUMBER ( "s" | "steps" )                               time or steps since the machine entered its state
+//! test = "after" NUMBER ( "s" | "steps" )                               time or steps since the state was entered
 //!      | "time" COMPARISON NUMBER "s"                                   since the machines began
 //!      | ( "right" | "left" ) "phase" COMPARISON NUMBER "%"             of the cycle of a foot since its strike
 //!      | ( "right" | "left" ) "foot" ( "strikes" | "leaves" | "is" ( "down" | "up" ) )

@@ -3,7 +3,8 @@
 //!
 //!   w   = G ∗ (H ∗) Σ_feet (F_i, r_i × F_i + T_i) - G ∗ (F_total, M_total), moments about the mass centre
 //!   m_F = rms of the force of w along an axis over a stance
-//!   m_P = rms of (M_w - r × F_w) / weight over a stance: about the axis to the right along the foot, about forward across it
+//!   m_P = rms of (M_w - r × F_w) / weight over a stance: about the axis to the right along the foot,
+//!         about forward across it
 //!
 //! | code      | symbol   | unit | meaning                                                 |
 //! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`])    |
