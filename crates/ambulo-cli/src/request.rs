@@ -137,7 +137,7 @@ impl CalibrateRequest {
     /// The file for the calibration, if none is given.
     pub(crate) const OUTPUT: &'static str = "person.toml";
 
-    /// The same for JSON.
+    /// [`CalibrateRequest::OUTPUT`] as the default of a field in JSON.
     fn output() -> PathBuf {
         CalibrateRequest::OUTPUT.into()
     }
@@ -293,7 +293,7 @@ impl Request {
         Ok(Answer::Results(Box::new(results)))
     }
 
-    /// The same request, handled in another way.
+    /// The request with other handling of files and messages.
     fn handled(&self, how: Handling) -> Request {
         let Handling { replace, check, print } = how;
         let mut request = self.clone();

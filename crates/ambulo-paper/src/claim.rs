@@ -37,7 +37,7 @@ pub fn tally(claims: &[Claim]) -> [usize; 2] {
     count(claims.iter().map(|claim| (claim.kind, claim.pass)))
 }
 
-/// The same by the criteria and kinds before they were changed ([`Claim::former`]).
+/// The tally by the criteria and kinds before they were changed ([`Claim::former`]).
 #[must_use]
 pub fn former_tally(claims: &[Claim]) -> [usize; 2] {
     let before = |claim: &Claim| claim.former.as_ref().map(|former| (former.kind, former.pass));

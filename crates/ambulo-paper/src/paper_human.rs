@@ -7,7 +7,7 @@ use ambulo_body::spatial::{Inertia, Mat3};
 
 /// Mass of the paper's figure [kg].
 pub const MASS: f64 = 80.0;
-/// Its stature, which the paper does not give [m].
+/// Stature of the figure, which the paper does not give [m].
 pub const HEIGHT: f64 = 1.80;
 /// Length of the foot in Table 1, share of the stature.
 pub(super) const TABLE_FOOT: f64 = 0.089;

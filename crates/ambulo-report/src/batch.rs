@@ -20,11 +20,11 @@ const LISTED: usize = 100;
 /// A quantity of every trial whose distribution is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BatchQuantity {
-    /// Its column in the table of trials.
+    /// Column of the quantity in the table of trials.
     pub column: &'static str,
     /// Title of its panel.
     pub title: &'static str,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'static str,
     decimals: usize,
 }

@@ -148,7 +148,7 @@ pub struct ClinicalQuantity {
     pub positive: &'static str,
     /// Meaning of negative values: `flexor`.
     pub negative: &'static str,
-    /// Its kind.
+    /// Kind of the quantity.
     pub group: ClinicalGroup,
     /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,

@@ -94,12 +94,12 @@ impl<'a> Curves<'a> {
         Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
     }
 
-    /// The same without the quantities of coordinates that are not measured.
+    /// These curves without the quantities of coordinates that are not measured.
     pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
         Curves { not_measured, ..self }
     }
 
-    /// The same per another mass [kg], such as the mass of a body shared by several trials.
+    /// These curves per another mass [kg], such as the mass of a body shared by several trials.
     pub(crate) fn per_mass(self, mass_kg: f64) -> Curves<'a> {
         Curves { mass_kg, ..self }
     }

@@ -51,9 +51,9 @@ impl SweptConditions {
 /// One walk of a sweep.
 #[derive(Debug, Clone)]
 pub struct SweptWalk {
-    /// Its conditions.
+    /// Conditions of the walk.
     pub conditions: SweptConditions,
-    /// Its curves, or why no walk was found.
+    /// Curves of the walk, or why no walk was found.
     pub found: Result<WalkCurves, String>,
 }
 

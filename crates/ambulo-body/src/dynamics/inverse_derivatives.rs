@@ -462,7 +462,7 @@ fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, 
 }
 
 impl Follows {
-    /// The same displacement, of a coordinate that follows a coupler.
+    /// This displacement as the displacement of a coordinate that follows a coupler.
     fn after(self, coupler: &Function) -> Follows {
         let curve = match self {
             Follows::Line(slope) => Function::Linear { slope, intercept: 0.0 },

@@ -60,9 +60,9 @@ pub enum RigError {
     OtherSkeleton {
         /// The segment.
         segment: String,
-        /// Its length in the skeleton [m].
+        /// Length of the segment in the skeleton [m].
         found_m: f64,
-        /// Its length in the result [m].
+        /// Length of the segment in the result [m].
         expected_m: f64,
     },
     /// Frames that the skeleton does not have.

@@ -21,7 +21,7 @@ pub enum ExportError {
     Unknown {
         /// `joint` or `coordinate`.
         part: &'static str,
-        /// Its name.
+        /// Name of the joint or coordinate.
         name: String,
         /// Found value.
         found: &'static str,

@@ -246,7 +246,7 @@ pub enum ModelError {
     PointMassPlace {
         /// The body that should carry it.
         body: String,
-        /// Its distance [m].
+        /// Distance found [m].
         found_m: f64,
         /// Largest allowed distance [m].
         most_m: f64,

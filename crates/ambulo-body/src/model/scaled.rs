@@ -54,7 +54,7 @@ pub enum ScaleError {
     Factor {
         /// The body.
         body: String,
-        /// Its factors.
+        /// Factors along x, y and z.
         found: [f64; 3],
     },
     /// A mass that is not positive, or a model without mass.

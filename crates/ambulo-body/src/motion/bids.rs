@@ -34,9 +34,9 @@ pub enum BidsError {
     Unit {
         /// The channel.
         channel: String,
-        /// Its type.
+        /// Type of the channel.
         kind: String,
-        /// Its unit.
+        /// Unit of the channel.
         found: String,
         /// Known units.
         expected: &'static str,

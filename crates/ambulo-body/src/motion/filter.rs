@@ -194,7 +194,7 @@ fn check(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(), FilterErr
     }
 }
 
-/// Both passes over `N` series, whose samples stand side by side.
+/// Both passes over `N` series, with the samples of an instant side by side in memory.
 fn run_both_ways<const N: usize>(mut rows: Vec<[f64; N]>, rate_hz: f64, filter: LowPass) -> Vec<[f64; N]> {
     let sections = Section::cascade(filter.order, tan(PI * filter.cutoff_hz / rate_hz));
     for _ in 0..2 {

@@ -51,7 +51,7 @@ pub enum MarkerError {
         name: String,
         /// Number of frames of the recording.
         frames: usize,
-        /// Its first marker names.
+        /// First marker names of the recording.
         listed: String,
     },
     /// Two points for most names, at different places.

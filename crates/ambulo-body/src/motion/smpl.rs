@@ -135,7 +135,7 @@ pub enum SmplError {
     NoNumbers {
         /// The array.
         array: String,
-        /// Its type.
+        /// Type of the array.
         found: String,
     },
     /// An array of another shape.
@@ -143,7 +143,7 @@ pub enum SmplError {
     Shape {
         /// The array.
         array: String,
-        /// Its shape.
+        /// Shape of the array.
         found: Vec<usize>,
         /// Allowed values.
         expected: &'static str,

@@ -116,7 +116,7 @@ struct Panel {
     rows: usize,
     /// The column in which the rows begin.
     begin: usize,
-    /// One entry per lane, column after column.
+    /// Entries of the columns, one after the other; each has one entry per lane.
     entries: Vec<f64>,
 }
 

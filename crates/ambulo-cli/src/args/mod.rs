@@ -39,7 +39,7 @@ use std::path::PathBuf;
 /// The folder for the results of a run, if none is given.
 pub(crate) const OUT: &str = "out";
 
-/// The same for JSON.
+/// [`OUT`] as the default of a field in JSON.
 pub(crate) fn out() -> PathBuf {
     OUT.into()
 }
@@ -137,7 +137,7 @@ pub enum Existing {
 }
 
 impl PrintArgs {
-    /// Nothing but errors.
+    /// Prints errors only.
     pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
 }
 
@@ -154,7 +154,7 @@ pub(crate) struct Handling {
 }
 
 impl Handling {
-    /// Nothing but errors is printed.
+    /// Prints errors only.
     pub(crate) fn quiet(existing: Existing) -> Handling {
         let replace = ReplaceArgs { force: existing == Existing::Replaced };
         Handling { replace, print: PrintArgs::QUIET, ..Handling::default() }

@@ -40,7 +40,8 @@ impl ResultFolder {
         Ok(folder)
     }
 
-    /// The same, or the folder of `ambulo reproduce` or `ambulo sweep`. Finishes or undoes an interrupted run first.
+    /// Opens the folder of any run: as `open`, and of `ambulo reproduce` and `ambulo sweep`. Finishes or undoes an
+    /// interrupted run first.
     pub(super) fn of_any_run(path: &Path) -> Result<ResultFolder> {
         let shown = path.display();
         refuse_other_paths(path)?;

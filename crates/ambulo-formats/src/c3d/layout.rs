@@ -25,7 +25,7 @@ pub(super) struct Layout {
 /// Bytes of the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
-    /// All of them.
+    /// Size of the file [bytes].
     pub(super) size: usize,
     /// First byte after the blocks of the parameter section.
     pub(super) after_parameters: usize,

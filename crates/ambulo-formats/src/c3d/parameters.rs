@@ -21,7 +21,7 @@ pub struct Group {
     pub description: String,
     /// Whether the group is locked (its name has a negative length).
     pub locked: bool,
-    /// Its parameters.
+    /// Parameters of the group.
     pub parameters: Vec<Parameter>,
 }
 

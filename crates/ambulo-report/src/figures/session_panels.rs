@@ -88,13 +88,13 @@ pub struct SessionPanel {
 /// A figure of panels, three in a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionFigure {
-    /// Its name in messages.
+    /// Name of the figure in messages.
     pub name: &'static str,
     /// Above the panels.
     pub title: String,
     /// Below the title.
     pub caption: String,
-    /// Its panels, in rows.
+    /// Panels of the figure, in rows.
     pub panels: Vec<SessionPanel>,
     /// Symbols with their meaning.
     pub legend: Vec<(SessionSample, String)>,

@@ -39,7 +39,7 @@ pub struct ReferenceGroup {
     pub ages_years: Option<[f64; 2]>,
     /// Lowest and highest mean speed of a person [m/s].
     pub speed_m_s: Option<[f64; 2]>,
-    /// The same over √(g L).
+    /// Speeds over √(g L).
     pub speed_dimensionless: Option<[f64; 2]>,
     /// Convention of the angles of pelvis and hips.
     pub convention: Convention,

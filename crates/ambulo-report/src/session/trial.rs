@@ -30,7 +30,7 @@ pub struct SessionTrial {
 #[derive(Debug, Clone)]
 pub struct ComputedTrial {
     pub(super) facts: TrialFacts,
-    /// None of them is excluded yet; their trial is 0.
+    /// Cycles of the trial; none is excluded yet, and their trial number is 0.
     pub(super) cycles: Vec<SessionCycle>,
     pub(super) strides: Vec<Stride>,
     pub(super) speed_m_s: Option<f64>,

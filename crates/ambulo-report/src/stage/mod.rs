@@ -77,7 +77,7 @@ pub struct StageBody {
     pub side: Option<Side>,
     /// Shapes in its axes.
     pub shapes: Vec<ViewShape>,
-    /// Its pose over time.
+    /// Pose of the body over time.
     pub path: BodyPath,
 }
 

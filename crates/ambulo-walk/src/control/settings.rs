@@ -27,7 +27,7 @@ pub struct ControlSettings {
 /// Balance control in addition to the impedances of joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// Nothing: it falls.
+    /// No balance control: the figure falls.
     Nothing,
     /// Feedback of the state of the whole figure.
     WholeState,

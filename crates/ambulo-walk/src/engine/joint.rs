@@ -24,7 +24,7 @@ use std::ops::Range;
 /// The motions that a joint leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
-    /// None.
+    /// No free motion.
     Weld,
     /// A rotation about z.
     Revolute,

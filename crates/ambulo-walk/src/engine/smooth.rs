@@ -118,7 +118,7 @@ pub(crate) fn accelerations(
 /// Known part of the effort along an undriven coordinate [N.m or N].
 #[derive(Debug, Clone, Copy)]
 pub(super) enum KnownEffort {
-    /// All of it.
+    /// The whole effort.
     All(f64),
     /// Limits and dry friction; springs and motors obey their laws.
     Besides(f64),

@@ -47,7 +47,7 @@ pub(crate) struct Touch {
     pub(crate) at: ContactPoint,
     /// Tangents; (normal, first, second) is a right-handed frame.
     pub(crate) tangents: [Vec3; 2],
-    /// Its rows in the graph, once [`TouchWorkspace::add_rows`] has added them.
+    /// Rows of the point in the graph, once [`TouchWorkspace::add_rows`] has added them.
     pub(crate) rows: ContactRows,
     /// Normal velocity of the second surface itself, if it is an obstacle [m/s].
     pub(crate) surface_speed: f64,

@@ -178,7 +178,7 @@ pub struct SteadyCurve {
     speed: Jet,
     /// Phases of the knots [cycles].
     phases: Vec<f64>,
-    /// One per knot.
+    /// Segments of the curve, one per knot.
     pub segments: Vec<Segment>,
 }
 

@@ -89,7 +89,7 @@ impl PaceChange {
         PaceChange::read_values(table, start_s)
     }
 
-    /// The same without `at`.
+    /// Reads a change of pace from a table without `at`.
     pub(super) fn read_values(table: &Table<'_>, start_s: f64) -> Result<PaceChange, TomlError> {
         let speed = table.get("speed").map(|value| value.zero_or_more()).transpose()?;
         let step_length = table.get("step_length").map(|value| value.above_zero()).transpose()?;

@@ -74,7 +74,7 @@ impl LoadPlace {
     pub const ALL: [(&'static str, LoadPlace); 3] =
         [("back", LoadPlace::Back), ("hands", LoadPlace::Hands), ("pelvis", LoadPlace::Pelvis)];
 
-    /// Its name.
+    /// Name of the place.
     #[must_use]
     pub fn name(self) -> &'static str {
         LoadPlace::ALL.iter().find(|(_, place)| *place == self).map_or("", |(name, _)| name)

@@ -30,7 +30,7 @@ pub struct OptimalWalk {
     pub human: Human,
     /// The problem that was solved.
     pub problem: WalkProblem,
-    /// Its solution.
+    /// Solution of the problem.
     pub solution: Solution,
     /// The conditions that it was predicted for, with the names of coordinates for all joints.
     pub conditions: WalkConditions,

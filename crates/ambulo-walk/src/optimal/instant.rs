@@ -36,7 +36,7 @@ pub struct ContactValues {
     pub slip: [f64; 2],
     /// Position of the centre of the sphere along x [m].
     pub place_x: f64,
-    /// The same along z [m].
+    /// Position of the centre of the sphere along z [m].
     pub place_z: f64,
 }
 
@@ -56,7 +56,7 @@ pub struct Instant {
     pub forces: Vec<f64>,
     /// Their derivatives, one row per force: by all positions, then rates, then accelerations.
     pub slopes: Vec<f64>,
-    /// One per sphere.
+    /// Contacts, one per sphere.
     pub contacts: Vec<Contact>,
 }
 

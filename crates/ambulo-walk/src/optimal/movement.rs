@@ -212,11 +212,11 @@ pub enum MovementError {
     },
     /// The first key that does not follow the one before, or does not begin at 0.
     Time {
-        /// Its number, from 1.
+        /// Number of the key, from 1.
         key: usize,
-        /// Its time [s].
+        /// Time of the key [s].
         time_s: f64,
-        /// It must be later than this, or for the first key be this [s].
+        /// The time must be later than this; the time of the first key must equal it [s].
         after_s: f64,
     },
     /// A joint that is not made of hinges and slides.

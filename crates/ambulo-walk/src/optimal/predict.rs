@@ -26,7 +26,7 @@ const SLOPE_STEP: f64 = 0.08;
 pub struct Prediction {
     /// The problem without normative targets.
     pub problem: WalkProblem,
-    /// Its solution.
+    /// Solution of the problem.
     pub solution: Solution,
 }
 

@@ -16,7 +16,7 @@ pub struct Progress {
     pub steps: usize,
     /// Sum of squares at the start, including constraints.
     pub from: f64,
-    /// The same at the end.
+    /// Sum of squares at the end, including constraints.
     pub cost: f64,
     /// Residual forces at the root: root mean square and maximum [body weights, body weights × length].
     pub root: (f64, f64),

@@ -17,7 +17,7 @@ pub enum MotionKind {
 /// added later: when it becomes active).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointAxes {
-    /// None.
+    /// No free motion.
     Weld,
     /// A rotation about an axis fixed in both bodies.
     Revolute {

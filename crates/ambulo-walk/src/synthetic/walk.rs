@@ -186,7 +186,7 @@ impl KeptPart {
         self.states_told(settings, walk, &mut |_| {})
     }
 
-    /// The same; reports each change while the machines run.
+    /// As `states`, and reports each change while the machines run.
     pub(super) fn states_told(
         &self,
         settings: &SyntheticWalkSettings<'_>,

@@ -12,9 +12,9 @@ const DEGREE: f64 = PI / 180.0;
 /// A setting of a controller that can be tuned.
 #[derive(Debug, Clone, Copy)]
 pub struct Gain {
-    /// Its key in the `control` table of a scene, or in the table `costs` of it.
+    /// Key of the gain in the `control` table of a scene, or in its table `costs`.
     pub name: &'static str,
-    /// Its unit in scenes.
+    /// Unit of the gain in scenes.
     pub unit: &'static str,
     /// Least and largest value, in this unit.
     pub bounds: [f64; 2],
@@ -45,13 +45,13 @@ pub enum GainError {
     #[error("found `{name}` = {} {unit}; expected {} to {} {unit}, between which it is tuned", Shown(*value),
         Shown(bounds[0]), Shown(bounds[1]))]
     Bounds {
-        /// Its name.
+        /// Name of the gain.
         name: &'static str,
-        /// Its value, in its unit.
+        /// Value, in the gain's unit.
         value: f64,
-        /// Its unit.
+        /// Unit of the gain.
         unit: &'static str,
-        /// Its bounds, in its unit.
+        /// Bounds, in the gain's unit.
         bounds: [f64; 2],
     },
     /// A walk without a controller.
@@ -126,7 +126,7 @@ impl Gain {
         Gain::ALL.into_iter().filter(is_usual).collect()
     }
 
-    /// Its value in settings, in its unit.
+    /// Value of the gain in settings, in its unit.
     #[must_use]
     pub fn value(&self, settings: &ControlSettings) -> f64 {
         let mut settings = settings.clone();

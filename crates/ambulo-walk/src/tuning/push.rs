@@ -23,7 +23,7 @@ const SMALLEST: f64 = 0.4;
 pub struct Push {
     /// Phase of the cycle at which it begins, 0 to 1.
     pub phase: f64,
-    /// Its direction about the vertical [rad]: 0 is forward, positive to the right.
+    /// Direction about the vertical [rad]: 0 is forward, positive to the right.
     pub direction: f64,
     /// Force for a figure of 75 kg [N].
     pub force_n: f64,

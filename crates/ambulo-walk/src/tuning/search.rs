@@ -39,9 +39,9 @@ pub struct Validated {
 pub struct Task {
     /// The point of the search.
     pub point: Vec<f64>,
-    /// Its settings.
+    /// Settings of the controller at this point.
     pub settings: ControlSettings,
-    /// Its pushes.
+    /// Pushes to simulate.
     pub pushes: Vec<Push>,
     /// Cost of the point for being outside the bounds.
     outside: f64,

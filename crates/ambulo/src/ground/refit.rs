@@ -151,7 +151,7 @@ impl RestingPoint {
         (whole > 0.0).then_some(RestingPoint { point, first, weights, place, velocity, up, grid })
     }
 
-    /// Its weight in a frame.
+    /// Weight of the point in a frame.
     fn weight(&self, frame: usize) -> f64 {
         frame.checked_sub(self.first).and_then(|k| self.weights.get(k)).copied().unwrap_or(0.0)
     }

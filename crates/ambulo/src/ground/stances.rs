@@ -59,7 +59,8 @@ pub enum StanceSource {
     Table,
     /// The motion.
     Predicted,
-    /// Nothing: it was not measured, and predictions were never validated in this activity, or are impossible.
+    /// No forces: the stance was not measured, and predictions were never validated in this activity, or are
+    /// impossible.
     Unknown,
 }
 

@@ -63,7 +63,7 @@ pub enum StudyError {
     /// A mass on a body that the model does not have.
     #[error("the model has no body `{found}`; expected one of {}", .known.join(", "))]
     UnknownBody {
-        /// Its name.
+        /// Name of the body.
         found: String,
         /// Names of the model's bodies.
         known: Vec<String>,

@@ -52,6 +52,6 @@ pub struct TrackedMarkers {
     pub body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
     pub listed_events: Vec<Event>,
-    /// Those that plates measured.
+    /// Events that plates measured.
     pub measured_events: Vec<Event>,
 }

@@ -41,7 +41,7 @@ pub enum Recording {
     Coordinates {
         /// The body.
         model: Model,
-        /// Its coordinates over time.
+        /// Coordinates of the model over time.
         motion: Motion,
     },
     /// Markers in a laboratory.

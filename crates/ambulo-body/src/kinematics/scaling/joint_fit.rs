@@ -40,12 +40,12 @@ use crate::spatial::Vec3;
 const MARKER: f64 = 0.01;
 /// Standard deviation of the logarithm of size between a body and its parent.
 const PROPORTION: f64 = 0.15;
-/// The same between a body whose size is not determined and its neighbour.
+/// The same standard deviation between a body whose size is not determined and its neighbour.
 const TIED: f64 = 0.01;
 const ENOUGH: usize = 3;
-/// The same between left and right: leg lengths differ by 1 % in most persons.
+/// The same standard deviation between left and right: leg lengths differ by 1 % in most persons.
 const SIDE: f64 = 0.01;
-/// The same between the whole body and the model.
+/// The same standard deviation between the whole body and the model.
 const WHOLE: f64 = 0.5;
 /// Standard deviation of the joints from the default posture [rad, or m].
 const POSTURE: f64 = 1.0;

@@ -34,7 +34,7 @@ pub enum SensorError {
     /// A sensor of the heading that is not there.
     #[error("there is no sensor `{found}` for the heading; expected one of {known}")]
     NoBaseSensor {
-        /// Its name.
+        /// Name of the sensor.
         found: String,
         /// Names of the sensors.
         known: String,
@@ -49,7 +49,7 @@ pub enum SensorError {
         axis: String,
         /// Name of the sensor.
         sensor: String,
-        /// Its angle above the floor [deg].
+        /// Angle of the axis above the floor [deg].
         angle_deg: f64,
     },
     /// A motion that does not show where forward is.

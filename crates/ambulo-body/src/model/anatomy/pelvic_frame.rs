@@ -38,7 +38,7 @@ pub enum PelvicFrameError {
     /// A model without legs.
     #[error("the model `{model}` has no pelvis with two legs, so pelvic tilt is not defined")]
     NoPelvis {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A pelvis without markers on the iliac spines.
@@ -48,7 +48,7 @@ pub enum PelvicFrameError {
          those of the coordinates of the model"
     )]
     NoLandmarks {
-        /// Its name.
+        /// Name of the model.
         model: String,
         /// The missing landmarks.
         missing: &'static str,
@@ -58,7 +58,7 @@ pub enum PelvicFrameError {
         "the markers on the iliac spines of the model `{model}` are on a line or at one position; expected a triangle"
     )]
     Degenerate {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
 }

@@ -35,7 +35,7 @@ impl SpherePart {
 pub struct ContactSphere {
     /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`; for files and messages.
     pub name: String,
-    /// Its part of the foot.
+    /// Part of the foot that it belongs to.
     pub part: SpherePart,
     /// The foot.
     pub side: Side,

@@ -138,7 +138,7 @@ pub struct Human {
     pub soles: Vec<ContactSphere>,
     /// Lengths [m].
     pub dimensions: Dimensions,
-    /// Its settings.
+    /// Settings of the figure.
     pub build: Build,
 }
 

@@ -49,7 +49,7 @@ pub struct PlateRecording {
     pub times: Vec<f64>,
     /// Force of the plate on the foot [N], one entry per time.
     pub force: Vec<Vec3>,
-    /// Its moment about the origin of the axes [N.m].
+    /// Moment of the force about the origin of the axes [N.m].
     pub moment: Vec<Vec3>,
     /// Corners of the surface, in the order of the file [m].
     pub corners: [Vec3; 4],

@@ -25,9 +25,9 @@ const LARGEST: f64 = 9e15;
 /// Unusual times of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ClockDoubt {
-    /// They are in another unit, which is used from now on.
+    /// The times have another unit, which is used from now on.
     Unit(&'static str),
-    /// They have another rate [Hz].
+    /// The times have another rate [Hz].
     Rate(f64),
 }
 

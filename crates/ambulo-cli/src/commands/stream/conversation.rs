@@ -38,7 +38,7 @@ enum Naming {
     /// Not yet: frames have everything of the model, in its units.
     Unsaid,
     Said,
-    /// It tried, but that line was refused: frames may have anything.
+    /// The line that described the frames was refused: frames may have any values.
     Refused,
 }
 

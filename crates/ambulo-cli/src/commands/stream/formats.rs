@@ -15,9 +15,9 @@ pub struct Message {
     pub angles: Option<AngleUnit>,
     /// Number of the frame.
     pub frame: Option<u64>,
-    /// Its time [s].
+    /// Time of the frame [s].
     pub(super) time: Option<f64>,
-    /// Its values; missing ones are null, or not-a-number in a record.
+    /// Values of the frame; missing ones are null, or not-a-number in a record.
     pub q: Option<Vec<Option<f64>>>,
     /// Names of the markers, or their positions in a frame.
     pub(super) markers: Option<Markers>,

@@ -10,7 +10,7 @@ pub enum Place {
     Next,
     /// So many frames before it are missing.
     After(u64),
-    /// It was received before.
+    /// The frame was received before.
     Doubled,
     /// A later frame was already used.
     Late,

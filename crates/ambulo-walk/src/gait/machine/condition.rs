@@ -44,7 +44,7 @@ pub enum Condition {
     Standing,
     /// The opposite.
     Not(Box<Condition>),
-    /// All of them.
+    /// All of these conditions hold.
     All(Vec<Condition>),
     /// At least one of them.
     Any(Vec<Condition>),
@@ -66,13 +66,13 @@ pub enum Comparison {
 /// Event or state of a foot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FootEvent {
-    /// It is loaded now and was not before.
+    /// The foot is loaded now and was not before.
     Strikes,
-    /// It was loaded and is not any more.
+    /// The foot was loaded and is not any more.
     Leaves,
-    /// It is loaded.
+    /// The foot is loaded.
     IsDown,
-    /// It is not loaded.
+    /// The foot is not loaded.
     IsUp,
 }
 

@@ -35,7 +35,7 @@ pub struct Sensed {
     pub time_s: f64,
     /// Whether each foot is loaded.
     pub loaded: BySide<bool>,
-    /// The same in the previous step.
+    /// Whether each foot was loaded in the previous step.
     pub loaded_before: BySide<bool>,
     /// Angles of joints [rad]: clinical signs for parts of the gait, the model's signs for coordinates.
     pub angles: Vec<(String, f64)>,
@@ -61,10 +61,10 @@ pub(super) struct Active {
 /// Why a machine is in its state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) enum Cause {
-    /// It started in it.
+    /// The machine started in this state.
     #[default]
     Start,
-    /// Its gate opened, or closed.
+    /// The gate of the machine opened (true) or closed.
     Gate(bool),
     /// A transition by its number.
     Transition(usize),

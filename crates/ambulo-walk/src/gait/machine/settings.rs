@@ -56,7 +56,7 @@ pub enum Driven {
     Coordinate(String),
     /// The pace.
     Pace,
-    /// Nothing: other machines wait for its states.
+    /// No output: other machines wait for the states of this machine.
     Nothing,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct StateSettings {
 /// How a machine computes its output in a state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Activity {
-    /// Nothing; of machines that drive nothing.
+    /// No activity, for machines without output.
     Wait,
     /// The curve of the gait at another phase, with the distance from upright standing scaled, and an offset.
     Walk {

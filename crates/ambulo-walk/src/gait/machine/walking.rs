@@ -288,7 +288,7 @@ impl WalkMachine {
         self.step_to(time_s, &clock, phases, phases.stance)
     }
 
-    /// The same with the loads that the feet have.
+    /// As [`WalkMachine::step`], with the measured loads of the feet.
     pub(crate) fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);

@@ -79,7 +79,7 @@ pub struct TrackSettings {
     pub most_change: f64,
     /// Angle beyond this change, or beyond the range of the joint, that costs 1 [rad].
     pub beyond: f64,
-    /// The same for the rotations of the root [rad].
+    /// Deviation of a rotation of the root that costs 1 [rad].
     pub root_angle: f64,
     /// The same for the translations of the root [m].
     pub place: f64,
@@ -137,13 +137,13 @@ pub enum TrackError {
     /// A model without legs.
     #[error("the model `{model}` has no two legs with hip, knee, ankle and foot; expected both legs")]
     NoFeet {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A body that is held.
     #[error("the root of the model `{model}` does not move freely; expected six free coordinates at the root")]
     HeldRoot {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A spring between bodies.
@@ -160,7 +160,7 @@ pub enum TrackError {
     /// Another vertical than y.
     #[error("the gravity of the model `{model}` does not act along -y; expected y as the upward axis")]
     NotUpright {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// No foot on the ground.
@@ -192,7 +192,7 @@ pub enum TrackError {
         side: Side,
         /// The sphere under it.
         sphere: String,
-        /// Its distance [m].
+        /// Distance found [m].
         distance_m: f64,
     },
     /// No motion near the recorded one was found that feet on the ground can make.
@@ -208,7 +208,7 @@ pub enum TrackError {
     /// A recording that is too short or too long.
     #[error("the motion lasts {found_s:.2} s; expected {least_s:.2} to {most_s:.0} s")]
     Duration {
-        /// Its duration [s].
+        /// Duration found [s].
         found_s: f64,
         /// The shortest that can be tracked [s].
         least_s: f64,

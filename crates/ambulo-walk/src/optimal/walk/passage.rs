@@ -43,9 +43,9 @@ const STANDING: (f64, usize) = (0.4, 8);
 /// A motion that repeats, before or after a passage.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PassageEnd<'a> {
-    /// Its problem, whose first guess is the gait.
+    /// Problem of the motion; its first guess is the gait.
     pub problem: &'a WalkProblem,
-    /// Its motion.
+    /// Solved motion.
     pub solution: &'a Solution,
     /// Duration of its cycle [s].
     pub cycle_s: f64,

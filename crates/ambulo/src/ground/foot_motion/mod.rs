@@ -48,7 +48,7 @@ pub(crate) enum EventMethod {
 }
 
 impl EventMethod {
-    /// All of them.
+    /// All methods.
     pub(crate) const ALL: [EventMethod; 4] =
         [EventMethod::PelvisDistance, EventMethod::FootVelocity, EventMethod::FootSpeed, EventMethod::FootAcceleration];
 

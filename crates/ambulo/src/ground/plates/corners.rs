@@ -84,7 +84,7 @@ impl Fit {
 /// A plate with loads of whole steps.
 struct Loaded {
     plate: usize,
-    /// One per order.
+    /// Fits, one per order of the corners.
     fits: Vec<Fit>,
 }
 

@@ -20,7 +20,7 @@ const OF_OTHERS: f64 = 0.1;
 const MOST_N: f64 = 60.0;
 /// The load of the other plates at the same time, as a share of the largest force.
 const OTHERS_LOADED: f64 = 0.2;
-/// It lasts at least this long [s]; a foot loads a plate to more than cross-talk within 0.02 s.
+/// Shortest cross-talk [s]; a foot loads a plate to more than cross-talk within 0.02 s.
 const SHORTEST_S: f64 = 0.1;
 /// A foot may be on the plate in this share of the time: errors of its events.
 const FOOT_SHARE: f64 = 0.2;

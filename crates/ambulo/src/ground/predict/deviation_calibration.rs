@@ -96,7 +96,7 @@ impl DeviationCalibration {
         (self.of_misfit * misfit.force[axis]).powi(2) + (of_sideways * sideways).powi(2)
     }
 
-    /// The same of the centre of pressure along (0) or across the foot (1) [m²].
+    /// Variance of the centre of pressure from the trial, along (0) or across the foot (1) [m²].
     #[doc(hidden)] // for tests
     pub fn center_of_trial(&self, axis: usize, misfit: &Misfit) -> f64 {
         (self.of_center_misfit * misfit.center[axis]).powi(2)

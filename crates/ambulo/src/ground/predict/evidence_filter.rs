@@ -123,7 +123,7 @@ impl EvidenceFilter {
         self.stride * (self.weights.len() - 1) + 1
     }
 
-    /// The same [s].
+    /// Half of its length, plus one frame [s].
     pub(super) fn reach_s(&self, grid: TimeGrid) -> f64 {
         self.reach_frames() as f64 * grid.step_s
     }

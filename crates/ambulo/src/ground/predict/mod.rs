@@ -58,7 +58,7 @@ use unilateral::enforce_unilateral_contact;
 const LEAST_GRAVITY: f64 = 0.1;
 /// How forces are divided between the feet in double support.
 const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness)";
-/// The same with the calibration of a person.
+/// Name of the rule with the calibration of a person.
 const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), \
     calibrated for the person on force plates";
 
@@ -149,13 +149,13 @@ pub enum PredictError {
     /// A model without feet.
     #[error("the model `{model}` has no two legs with hip, knee, ankle and foot; expected both legs")]
     NoFeet {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A foot without a sole.
     #[error("the {side} sole of the model `{model}` is not known; expected the soles of both feet")]
     NoSole {
-        /// Its name.
+        /// Name of the model.
         model: String,
         /// Which foot.
         side: Side,
@@ -166,17 +166,17 @@ pub enum PredictError {
          scales with the mass"
     )]
     NoMass {
-        /// Its name.
+        /// Name of the model.
         model: String,
-        /// Its mass [kg].
+        /// Mass of the model [kg].
         mass: f64,
     },
     /// A model without gravity.
     #[error("the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1")]
     NoGravity {
-        /// Its name.
+        /// Name of the model.
         model: String,
-        /// Its gravity [m/s²].
+        /// Gravity of the model [m/s²].
         gravity: f64,
     },
     /// A calibration of another person.
@@ -218,7 +218,7 @@ pub enum PredictError {
     Footfalls {
         /// Which foot.
         side: Side,
-        /// Its foot strike or foot off [s].
+        /// Foot strike or foot off of the stance [s].
         time_s: f64,
     },
     /// Equations without a solution.
@@ -229,7 +229,7 @@ pub enum PredictError {
     Shape {
         /// The series.
         what: &'static str,
-        /// Its number of frames.
+        /// Number of frames found.
         found: usize,
         /// Number of frames of the motion.
         expected: usize,

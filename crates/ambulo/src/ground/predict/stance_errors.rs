@@ -59,7 +59,7 @@ pub struct ErrorSample {
     pub phase: f64,
     /// Measured minus estimated value.
     pub error: f64,
-    /// Its weight.
+    /// Weight of the sample.
     pub weight: f64,
     /// Descent of the mass centre at the strike of its stance (`strike_descents`).
     pub descent: f64,

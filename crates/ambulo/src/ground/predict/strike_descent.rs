@@ -35,7 +35,7 @@ pub struct Strike {
 pub struct CenterVelocity<'a> {
     /// Times of the frames.
     pub grid: TimeGrid,
-    /// One entry per frame [m/s].
+    /// Velocity of the mass centre, one entry per frame [m/s].
     pub velocity: &'a [Vec3],
 }
 

@@ -51,7 +51,7 @@ pub enum Tail {
     Filtered {
         /// Number of the first frame.
         first: isize,
-        /// One per coordinate.
+        /// Columns, one per coordinate.
         columns: Vec<Option<Vec<f64>>>,
     },
     /// All frames of the window, with the number of the first one.

@@ -15,7 +15,7 @@ const NOT_BIDS_RECORDINGS: [&str; 4] = ["sourcedata/", "derivatives/", "code/", 
 /// The recordings that are trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
-    /// Those with measured ground forces.
+    /// Recordings with measured ground forces.
     MeasuredForces,
     /// All recordings of motion.
     Motion,

@@ -84,7 +84,7 @@ enum Kind {
     Still,
     /// Without forces.
     Motion,
-    /// It cannot be read, for this reason.
+    /// The recording cannot be read, for this reason.
     Broken(String),
 }
 

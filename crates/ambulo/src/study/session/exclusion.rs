@@ -76,7 +76,7 @@ pub enum Exclusion {
     },
     /// The cycle is far longer or shorter than usual.
     Duration {
-        /// Its duration [s].
+        /// Duration found [s].
         found_s: f64,
         /// The median of the session [s].
         usual_s: f64,

@@ -143,12 +143,12 @@ pub fn profile(cycles: &[SessionCycle], norm: impl Fn(&str) -> Option<NormalCurv
 pub struct Deviation {
     /// Root mean square difference from the mean of the group, in the unit of the quantity.
     pub rms: f64,
-    /// The same to expect of a person of the group.
+    /// Root mean square to expect of a person of the group.
     pub expected_rms: f64,
     /// The largest difference in standard deviations of the group: in the unit of the quantity, positive above the
     /// mean.
     pub largest: f64,
-    /// The same in standard deviations.
+    /// Largest deviation in standard deviations.
     pub largest_sd: f64,
     /// Where that is [% of the cycle].
     pub at_percent: f64,

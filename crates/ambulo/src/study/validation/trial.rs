@@ -26,7 +26,7 @@ pub struct TrialKind {
 /// A trial whose prediction was compared with force plates.
 #[derive(Debug, Clone)]
 pub struct JudgedTrial {
-    /// Its name in tables.
+    /// Name of the trial in tables.
     pub name: String,
     /// Whose trial it is.
     pub person: String,
@@ -36,7 +36,7 @@ pub struct JudgedTrial {
     pub speed_m_s: Option<f64>,
     /// The body mass of the comparison.
     pub mass: Mass,
-    /// Its weight [N].
+    /// Weight of the person [N].
     pub weight_n: f64,
     /// Whether recording, body and forces fit together.
     pub quality: QualityState,
@@ -54,7 +54,7 @@ pub struct JudgedTrial {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotJudged {
-    /// Nothing was predicted.
+    /// No forces were predicted.
     #[error("no ground forces were predicted; expected a body with two feet on the ground")]
     NoPrediction,
     /// No measured forces.
