@@ -10,7 +10,7 @@ use super::ground_force::longest_contact;
 use super::open_values::open_values;
 use super::setting::Setting;
 
-/// A value that is changed for the claims that it may decide.
+/// A value that is changed, and the claims whose judgement may depend on it.
 struct Trial {
     claims: &'static [&'static str],
     key: &'static str,

@@ -206,7 +206,7 @@ impl<'a> OutputFile<'a> {
         Ok(bytes)
     }
 
-    /// The table that the file is made from, if it is one.
+    /// The table in the file; `None` if the file is no table.
     pub fn table(&self) -> Option<Result<Table, Error>> {
         match self.content() {
             Content::Table { make, .. } => Some(make.make().map(|rows| rows.table())),

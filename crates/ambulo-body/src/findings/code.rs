@@ -753,7 +753,8 @@ impl Code {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
     }
 
-    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    /// Whether the finding is shown before other warnings: it concerns the identity of the person, or which values are
+    /// results.
     #[must_use]
     pub fn comes_first(self) -> bool {
         matches!(

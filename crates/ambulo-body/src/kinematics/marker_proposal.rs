@@ -44,7 +44,7 @@ const ANY_MASS_KG: f64 = 70.0;
 /// Proposals for the markers of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerProposals {
-    /// Every marker with a meaning: those that were recognised by name, and those that are proposed.
+    /// Markers with a meaning, recognised by name or proposed.
     pub markers: Vec<NamedMarker>,
     /// Names of the markers whose meaning is only proposed.
     pub proposed: Vec<String>,

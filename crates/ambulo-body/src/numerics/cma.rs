@@ -34,7 +34,7 @@ use crate::numerics::elementary::{exp, ln, powf, powi};
 /// Least eigenvalue of C relative to its largest: beyond it rounding decides.
 const LEAST_EIGENVALUE: f64 = 1e-20;
 
-/// The state of an evolution strategy: plain numbers, from which it continues as if it had not been interrupted.
+/// The state of an evolution strategy. It can be saved; the search then continues with the same results.
 ///
 /// ```
 /// use ambulo_body::numerics::Cma;

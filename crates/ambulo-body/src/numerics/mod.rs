@@ -53,7 +53,7 @@ pub use uniform_spline::UniformSplines;
 #[doc(hidden)]
 pub use whittaker::Whittaker;
 
-/// Reads a number that files write as `null` where it is not one.
+/// Reads a number; `null` becomes NaN.
 #[doc(hidden)]
 pub fn or_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))

@@ -77,7 +77,7 @@ impl BatchCounts {
     }
 }
 
-/// Prints which trials were found with what, and which files are none.
+/// Prints the trials with their files, and the files that belong to no trial.
 pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], print: PrintArgs) -> Result<()> {
     if print.quiet {
         return Ok(());

@@ -66,7 +66,7 @@ fn print_mass(summary: &Summary) -> Result<()> {
     print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
-/// The numbers by which a run is recognised as the expected one.
+/// Prints the main numbers of a run: markers, activity, speed, cadence, step length.
 fn outline(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print_markers(subject)?;

@@ -326,7 +326,7 @@ impl ComparedSession {
         self.norms.curve(quantity)
     }
 
-    /// The quantities that any cycle has and that move in it.
+    /// The quantities that change in at least one cycle.
     fn shown(&self) -> Vec<SessionQuantity> {
         let moves = |quantity: &SessionQuantity| {
             let curves = self.session.cycles.iter().filter_map(|cycle| cycle.curves.get(quantity.id));

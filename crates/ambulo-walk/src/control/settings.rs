@@ -57,7 +57,7 @@ pub enum TorqueCurves {
     Given(Vec<TorqueSeries>),
 }
 
-/// Deviations from the plan that cost as much as each other.
+/// Deviations from the plan that have equal cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackingCosts {
     /// Of the angle of a joint [rad].

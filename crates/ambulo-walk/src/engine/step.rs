@@ -79,8 +79,8 @@ pub fn accelerations(
     smooth::accelerations(world, state, solver, &mut w.solver, &mut w.equations)
 }
 
-/// A step of impulses. It is divided at the instant at which a fast body meets a surface that it would have passed at
-/// the end of the step: bodies that rebound do so in the step in which they overlap.
+/// A step of impulses. It is divided at the instant at which a fast body touches a surface that it would have passed at
+/// the end of the step. So bodies rebound in the step in which they overlap.
 fn impulse_parts(
     world: &World,
     state: &mut WorldState,

@@ -342,7 +342,8 @@ impl RowWriter<'_> {
         true
     }
 
-    /// A point that loses all its velocity in an impact: one row that can only push, two that hold.
+    /// A point that loses all its velocity in an impact: one unilateral row along the normal, two bilateral rows along
+    /// the tangents.
     fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: ActsOn) {
         let ((a, b), feature) = (touch.surfaces, touch.at.feature);
         let (group, normal) = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });

@@ -73,7 +73,7 @@ pub(crate) enum StepKind {
 pub(crate) struct Equations {
     pub(crate) assembly: Assembly,
     pub(crate) solution: GraphSolution,
-    /// Of the stages of a Runge-Kutta step so far: iterations, and what the first one that failed violates.
+    /// Iterations of all stages of a Runge-Kutta step so far, and the laws that the first failed stage violates.
     pub(crate) iterations: usize,
     pub(crate) contradiction: Option<String>,
 }

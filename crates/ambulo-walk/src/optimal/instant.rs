@@ -271,7 +271,7 @@ impl Evaluator {
         }
     }
 
-    /// The contact of one sphere, whose values it sets.
+    /// Computes the contact of one sphere and sets its values.
     fn meet(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> Touch {
         let sole = &self.soles[sphere];
         let body = sole.body.index();

@@ -112,7 +112,7 @@ impl StandingMovements {
     }
 }
 
-/// Whether a movement differs from the walk where it joins it.
+/// Whether a movement differs from the walk at the instant of their join.
 fn misses(solution: &Solution, walk: &Solution, is_start: bool) -> bool {
     let (outline, at_s) = if is_start { (START, solution.problem().duration_s) } else { (STOP, 0.0) };
     let [own, joined] = [solution.instant(at_s), walk.instant(outline.joins * walk.cycle_s())];

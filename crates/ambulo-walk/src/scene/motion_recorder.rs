@@ -121,7 +121,7 @@ impl MotionRecorder {
         self.of_ground.first().map_or(0, Vec::len)
     }
 
-    /// Coordinates and rates now; those that follow no signal start at the last ones.
+    /// Coordinates and rates now. For coordinates without a signal, the search starts at their last values.
     fn read(&self, state: &WorldState) -> [Vec<f64>; 2] {
         let mut q = self.now[0].clone();
         let mut rates = vec![0.0; q.len()];

@@ -250,7 +250,7 @@ pub fn replay(
 
 /// Torques hold a figure of the mass that they were computed for.
 fn report_other_figure(torques: &[TorqueSeries], body_kg: f64, findings: &mut Findings) {
-    /// Masses that differ by less, as a share, are one figure's.
+    /// Largest relative difference between masses of one figure.
     const SAME_FIGURE: f64 = 0.01;
     let is_other = |series: &&TorqueSeries| (series.body_kg / body_kg - 1.0).abs() > SAME_FIGURE;
     if let Some(series) = torques.iter().find(is_other) {

@@ -24,7 +24,7 @@ pub(super) fn optimal(
     made(settings, walk, &kept, found)
 }
 
-/// The predicted mode: as the optimal one, from the solution of muscles that work as little as they can.
+/// The predicted mode: as the optimal mode, from a walk that minimises muscle effort.
 pub(super) fn predicted(
     settings: &SyntheticWalkSettings<'_>,
     conditions: &WalkConditions,

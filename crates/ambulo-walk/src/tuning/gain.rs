@@ -114,8 +114,8 @@ impl Gain {
         if gains.is_empty() { Err(GainError::Count { found: "no gain".to_owned() }) } else { Ok(gains) }
     }
 
-    /// The gains that are usually tuned. Without the torque: all costs times one number are the same costs, so one of
-    /// them is their unit. A planar figure has no place sideways.
+    /// The gains that are usually tuned. The cost of torque is left out: a common factor of all costs changes nothing,
+    /// so one cost is the unit of the others. A planar figure has no place sideways.
     #[must_use]
     pub fn usual(in_three_dimensions: bool) -> Vec<Gain> {
         let is_usual = |gain: &Gain| match gain.name {

@@ -37,8 +37,8 @@ pub struct TuningProblem {
 }
 
 impl TuningProblem {
-    /// A problem whose search starts from settings with feedback. Gains that are tuned start with the digits that gains
-    /// are written with, so that what is judged is what is written.
+    /// A problem whose search starts from settings with feedback. Tuned gains start rounded to the digits with which
+    /// gains are written, so the written gains are the judged ones.
     ///
     /// # Errors
     /// A gain that starts outside its bounds; a walk without a controller.

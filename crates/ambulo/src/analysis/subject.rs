@@ -1,4 +1,4 @@
-//! The body that is fitted to markers: where it comes from, and how it is made.
+//! The body that is fitted to markers, and its sources: a model, a marker set, a protocol or a standing trial.
 
 use super::feasibility::Person;
 use super::identity::completed;

@@ -164,7 +164,7 @@ pub(crate) struct VerticalForces {
     pub(crate) weight_n: f64,
 }
 
-/// A motion whose loads were measured, as far as they were.
+/// A motion with loads that were measured at some times.
 pub(crate) struct MeasuredMotion<'a> {
     pub(crate) grid: TimeGrid,
     pub(crate) footfalls: &'a Footfalls,

@@ -84,7 +84,8 @@ fn every_number(body: &Model) -> String {
     format!("{body:?}")
 }
 
-/// The trial that gives the body: of those whose data are not bad the one whose markers lie nearest to their body.
+/// The trial that gives the body: among trials whose data are not bad, the one with the smallest distance between
+/// markers and body.
 fn first_of<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
     let rank = |k: &usize| {
         let outcome = runs[*k].as_ref().ok()?.as_ref();

@@ -8,7 +8,7 @@ use crate::motion::{B3dError, B3dTrial, Window};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 
-/// Masses that differ by less, as a share, are one person's.
+/// Largest relative difference between masses of one person.
 const SAME_MASS: f64 = 0.05;
 
 /// Why a trial of an AddBiomechanics subject is no source.

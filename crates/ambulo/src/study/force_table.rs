@@ -1,4 +1,4 @@
-//! Ground forces as a table: which columns act on which body, and in which axes they are.
+//! Ground forces as a table: the body and the axes of each group of columns.
 
 use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns, with_axis_last};

@@ -1,4 +1,4 @@
-//! Body mass: what states or weighs it, which of these is used, and whether they agree.
+//! Body mass: stated, or weighed on plates; which value is used, and whether the values agree.
 //!
 //! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass.
 //! Where two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
@@ -13,7 +13,7 @@ use crate::numerics::elementary::hypot;
 use crate::spatial::STANDARD_GRAVITY;
 use serde::{Deserialize, Serialize};
 
-/// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
+/// Largest relative difference between masses of one person: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
 /// The mass of a body that was made with a mass differs from it by roundings only, as a share.
 const SAME_MASS: f64 = 1e-6;

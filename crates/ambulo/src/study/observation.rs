@@ -53,7 +53,7 @@ pub(super) struct Observation {
     pub(super) has_models_mass: bool,
 }
 
-/// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+/// A motion as observed. It is stored separately from the body, because a long motion is dropped after smoothing.
 #[derive(Clone)]
 pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.

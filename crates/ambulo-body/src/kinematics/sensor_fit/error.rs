@@ -81,7 +81,7 @@ pub enum SensorError {
         /// Name of the model.
         model: String,
     },
-    /// A pelvis that cannot move to where the feet put it.
+    /// The pelvis cannot move in all directions, so the feet cannot determine its place.
     #[error(
         "the root of `{model}` cannot move along all three directions; expected three translations with a coordinate \
          each"

@@ -216,7 +216,8 @@ fn directions_of(model: &Model, placed: &[PlacedSensor]) -> Result<Model, Sensor
     Ok(Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), markers)?)
 }
 
-/// Gives coordinates that turn no sensor their default value; refuses a motion in which one that does is never known.
+/// Sets coordinates that turn no sensor to their default value. Rejects a motion in which a coordinate that turns a
+/// sensor is never determined.
 fn fill_undetermined(model: &Model, motion: &mut Motion, findings: &mut Findings) -> Result<(), SensorError> {
     let mut constant = Vec::new();
     let mut unknown = Vec::new();

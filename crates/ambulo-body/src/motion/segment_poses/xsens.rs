@@ -135,7 +135,7 @@ fn foot_point(mvnx: &Mvnx, side: Side, segment: &str, point: &str) -> Option<[f6
     mvnx.point(&format!("{word}{segment}"), &format!("p{word}{point}"))
 }
 
-/// Whether a segment turns with the pelvis in every frame: MVN writes it so if it had no sensor.
+/// Whether a segment turns with the pelvis in every frame, as MVN writes segments without a sensor.
 fn turns_with_pelvis(poses: &SegmentPoses, segment: PosedSegment) -> bool {
     let back = hanging(segment).transpose();
     let apart = |frame: usize| {

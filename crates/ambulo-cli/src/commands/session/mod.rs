@@ -31,7 +31,7 @@ pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
     compute(args, &args.of_trials()?, &Caller::default())
 }
 
-/// Computes a session into its folder. A caller that stops it leaves the folder as it was.
+/// Computes a session into its folder. If the caller stops it, the folder does not change.
 pub(crate) fn compute(args: &SessionArgs, of_trials: &TrialWords, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
     let (root, mut plan) = visit::of(&args.source, threads)?;

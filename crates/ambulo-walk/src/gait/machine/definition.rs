@@ -187,7 +187,7 @@ pub struct Machine {
 pub(crate) struct Gate {
     /// Another machine and its state; `None` for a machine that runs from the time at which machines begin.
     pub during: Option<(String, String)>,
-    /// Whether it goes on in the state in which it was interrupted.
+    /// Whether the machine resumes the state in which it was interrupted.
     pub resumes: bool,
     /// Duration of the passages into the second state, where it starts, and back into the first [s].
     pub within_s: [f64; 2],

@@ -94,8 +94,8 @@ impl StateTrace {
     }
 }
 
-/// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in
-/// which it happens.
+/// Reports the states and changes of a trace while it grows: as [`StateTrace::changes`], each in the step in which it
+/// happens.
 pub struct StateWatch<'a> {
     /// First and last instant [s]; reported times count from the first one.
     ends_s: [f64; 2],

@@ -64,8 +64,8 @@ fn source(plates: &[PlateRecording], plate: usize, spans: &[[usize; 2]]) -> Vec<
     (0..samples).map(|i| source.map_or(0.0, |source| source.vertical(i))).collect()
 }
 
-/// Removes cross-talk where it is seen alone, and what it adds while a foot is on the plate as well: the same share of
-/// the other plates' force, or the same amount, whichever describes it better where it is alone.
+/// Removes cross-talk where it occurs alone, and its part while a foot is on the plate. This part is the same share of
+/// the other plates' force, or the same amount, whichever fits better where cross-talk is alone.
 fn subtract(values: &mut [Vec3], spans: &[[usize; 2]], source: &[f64]) {
     let alone =
         || spans.iter().flat_map(|[first, end]| *first..*end).filter(|i| source[*i] > CENTER_OF_PRESSURE_LOAD_N);

@@ -193,7 +193,7 @@ fn stance(
     let heading = if pace > UNDER_WAY { level(drift) } else { level(foot[2] - foot[0]) };
     let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| any_level(body_scale.up));
     let near = 0.02 * body_scale.leg_time_s;
-    // The other foot's off ends a stance that began before this one; its strike begins one that ends after this one.
+    // The other foot's off ends a stance that began before this one; its strike begins a stance that ends later.
     let before = others.iter().filter(|o| o[0] <= start_s).map(|o| o[1]);
     let other_off = before.into_iter().find(|off| *off > start_s + near && *off < end_s - near);
     let other_strike = others

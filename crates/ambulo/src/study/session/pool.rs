@@ -54,8 +54,9 @@ pub struct PooledCurve {
     pub forces: Option<CycleForces>,
 }
 
-/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. If it depends on forces,
-/// over those with measured forces, or, where there is none, over those with predicted ones. `None` without cycles.
+/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. A quantity that depends
+/// on forces uses cycles with measured forces, or, without such cycles, cycles with predicted forces. `None` without
+/// cycles.
 #[must_use]
 pub fn pooled(cycles: &[SessionCycle], quantity: &str, side: Side) -> Option<PooledCurve> {
     let of_side = || {
