@@ -144,7 +144,7 @@ impl ChangingWalk {
         }
     }
 
-    /// Writes coordinates, rates and accelerations at a time [s]. The place forward begins anew in every part of the
+    /// Writes coordinates, rates and accelerations at a time [s]. The forward position restarts in every part of the
     /// walk.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         let begun = self.changes.partition_point(|change| change.start_s <= time_s).checked_sub(1);

@@ -1,4 +1,4 @@
-//! Plans at several speeds, and what lies between two of them.
+//! Plans at several speeds, and interpolation between two of them.
 
 use super::plan::{CyclePlan, PlannedStep};
 use nalgebra::{DMatrix, DVector};

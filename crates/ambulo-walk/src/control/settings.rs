@@ -1,4 +1,4 @@
-//! Settings of a controller, and why there is none.
+//! Settings of a controller, and the errors of making one.
 
 use crate::dynamics::CurvedJointError;
 use crate::engine::WorldError;

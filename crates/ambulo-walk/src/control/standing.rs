@@ -116,7 +116,7 @@ impl Maker<'_> {
         Ok(Standing { stop, stand, start, soles_m })
     }
 
-    /// A movement that goes on with the steps `after`, with the matrix P after these.
+    /// A movement followed by the steps `after`, with the matrix P of the Riccati equation after these.
     fn movement(
         &mut self,
         solution: &Solution,

@@ -27,7 +27,7 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
-/// An approach faster than gravity gives within so many steps is an impact.
+/// An approach is an impact if it is faster than the speed that gravity gives within this number of steps.
 const RESTING_STEPS: f64 = 4.0;
 
 /// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of

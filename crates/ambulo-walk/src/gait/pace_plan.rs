@@ -13,7 +13,7 @@
 //! two feet on the ground cannot change their distance: R(φ) = Σ wₖ r((φ - aₖ)/(bₖ - aₖ)), with weights wₖ in
 //! proportion to the durations bₖ - aₖ. If there is no whole single support within the change, there is one ramp from
 //! its start to its end. In a halt, a single support that begins within a fifth of a cycle is left out, because the
-//! figure has hardly slowed down. Phase and pace are C².
+//! figure has slowed down only little. Phase and pace are C².
 //!
 //! On constant pace the integral is a product. On ramps, where f is smooth, it is computed by Gauss-Legendre quadrature
 //! with 16 points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000

@@ -219,7 +219,7 @@ pub enum MovementError {
         /// The time must be later than this; the time of the first key must equal it [s].
         after_s: f64,
     },
-    /// A joint that is not made of hinges and slides.
+    /// A joint with other motions than hinges and slides.
     Joint(CurvedJointError),
 }
 

@@ -1,9 +1,9 @@
 //! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
 //!
 //! A stop begins in a walk, when the left foot has left the ground, and ends at rest on both feet; a start ends in the
-//! walk before the left foot strikes. In between, what muscles cost decides, as in other movements. The first guess
-//! mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it is.
-//! Without bounds of the load on the ground, some starts hop, which is a local minimum.
+//! walk before the left foot strikes. In between, the cost of muscles is minimised, as in other movements. The first
+//! guess mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it
+//! is. Without bounds of the load on the ground, some starts hop, which is a local minimum.
 //!
 //! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the
 //! extrapolated mass centre x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).

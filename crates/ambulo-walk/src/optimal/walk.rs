@@ -302,7 +302,7 @@ impl WalkProblem {
         if moves_sideways(&self.problem.model) { &SPATIAL_STAGES } else { &STAGES }
     }
 
-    /// Solves the problem from its first guess. If forces at the root remain, it goes on with the last stage, then from
+    /// Solves the problem from its first guess. If forces at the root remain, it repeats the last stage, then from
     /// the middle stage on, and then with the last one again.
     ///
     /// # Errors

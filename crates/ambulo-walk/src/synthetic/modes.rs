@@ -204,7 +204,7 @@ pub fn run_of_states(
     Ok(())
 }
 
-/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go
+/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are released
 /// at a nominal strike of the right foot, and the torques act instead. The walk ends shortly after the figure falls;
 /// the kept part begins a cycle before the release.
 ///
@@ -248,7 +248,7 @@ pub fn replay(
     steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None, torques: Vec::new() })
 }
 
-/// Torques hold a figure of the mass that they were computed for.
+/// Torques are valid for a figure of the mass for which they were computed.
 fn report_other_figure(torques: &[TorqueSeries], body_kg: f64, findings: &mut Findings) {
     /// Largest relative difference between masses of one figure.
     const SAME_FIGURE: f64 = 0.01;

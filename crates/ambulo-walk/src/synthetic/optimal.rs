@@ -94,7 +94,7 @@ fn made(
     })
 }
 
-/// Cycles in which a whole stance of each foot is looked for.
+/// Number of cycles that are searched for a whole stance of each foot.
 const STRIDES_OF_SLIP: usize = 3;
 
 fn trajectory(model: &Model, solution: &Solution, start_s: f64, grid: TimeGrid) -> Result<Trajectory, TrajectoryError> {

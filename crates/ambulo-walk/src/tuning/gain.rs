@@ -38,7 +38,7 @@ pub enum GainError {
     /// A gain is listed twice, or there is none.
     #[error("found {found}; expected each gain once, at least one")]
     Count {
-        /// The gain, or that there is none.
+        /// The repeated gain, or `no gain`.
         found: String,
     },
     /// A gain starts outside its bounds.

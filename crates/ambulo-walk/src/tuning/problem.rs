@@ -134,8 +134,8 @@ impl TuningProblem {
         Ok(sums.outcome())
     }
 
-    /// A push at the present state of a walk, which goes on without it. Deviation and effort of a walk that ends in a
-    /// fall do not count: the fall does.
+    /// A push at the present state of a walk; the walk itself continues without it. Deviation and effort of a walk that
+    /// ends in a fall do not count: the fall does.
     fn pushed(&self, level: &PhysicalWalk, push: &Push, sums: &mut Sums) -> Result<(), ControlError> {
         let (mut walk, mut own) = (level.clone(), Sums::default());
         let (start_s, after_s) = (walk.time_s(), AFTER * self.plan.cycle_s());

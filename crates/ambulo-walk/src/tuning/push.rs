@@ -75,7 +75,7 @@ impl PushUse {
         }
     }
 
-    /// Pushes per push of a candidate: the choice and the report have more, because they decide.
+    /// Pushes per push of a candidate: the choice and the report use more, because they determine the result.
     #[doc(hidden)] // for tests
     pub fn times(self) -> usize {
         match self {

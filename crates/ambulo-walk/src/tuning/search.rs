@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Standard deviation of the natural logarithm of each gain at the start: a gain changes by a third.
 const FIRST_SIGMA: f64 = 0.3;
 
-/// The state of a search: plain numbers, from which it goes on as if it had not been interrupted.
+/// The state of a search. It can be saved; the search then continues with the same results.
 ///
 /// Candidates of a generation are compared by pushes that no other generation has. The mean of each generation is
 /// judged by one set of pushes that is always the same, and the mean that costs least there is the result; the first

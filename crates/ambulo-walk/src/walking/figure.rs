@@ -123,7 +123,7 @@ impl Walker {
         self
     }
 
-    /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all
+    /// States that the walk also exists before its start, where it has this posture with rates and accelerations of all
     /// coordinates.
     ///
     /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step

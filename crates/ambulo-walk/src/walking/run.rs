@@ -21,7 +21,7 @@ const MOST_STEPS: usize = 1_200_000;
 pub struct Release<'a> {
     /// The torques, by coordinate.
     pub torques: &'a [TorqueSeries],
-    /// Time at which the drives of these coordinates and the hand at the trunk let go [s].
+    /// Time at which the drives of these coordinates and the support of the trunk end [s].
     pub time_s: f64,
 }
 
@@ -108,7 +108,7 @@ impl Walker {
         recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows })
     }
 
-    /// Walks until the drives let go, then with torques that do not depend on the motion, until the figure falls or for
+    /// Walks until the drives end, then with torques that do not depend on the motion, until the figure falls or for
     /// `duration_s`. Gives the walk, driven and then free, and the time from the release to the fall [s]; `None` if the
     /// figure has not fallen at the end.
     ///

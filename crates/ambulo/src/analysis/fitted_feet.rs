@@ -54,7 +54,7 @@ fn lacking(points: &MarkerRecording, landmarks: &Landmarks) -> Vec<(Side, usize)
     };
     let of_side = |side: Side| {
         let foot = landmarks.foot(side);
-        // Without an ankle, the markers hardly show where the leg leads.
+        // Without an ankle marker, the direction of the leg is not determined.
         let is_foot = foot.ankle.is_some_and(is_shown);
         let ends = [foot.heel.or(foot.ankle), foot.toe.or(foot.side)];
         let unseen = move |end: &usize| is_foot && !ends[*end].is_some_and(is_shown);

@@ -7,7 +7,7 @@
 //!
 //!   Σ F ≥ c Σ m (a + g)        c = 0.85, over the frames in which the other foot is in the air
 //!
-//! A stance that was not measured and in which the measured loads carry the body nevertheless is none: the foot
+//! An unmeasured stance in which the measured loads carry the whole body is no stance: the foot
 //! touches the floor without a load. The others have **missing** loads; `completed` takes them from a prediction.
 //!
 //! | code        | symbol | unit | meaning                                                     |
@@ -97,7 +97,7 @@ impl fmt::Display for StanceSource {
 }
 
 impl Stance {
-    /// A stance of a motion, without what is outside of it; `None` if nothing is left.
+    /// A stance cut to the time of the motion; `None` if it is outside.
     pub(crate) fn within(
         side: Side,
         [start_s, end_s]: [f64; 2],

@@ -8,8 +8,8 @@
 //! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files read
 //! ```
 //!
-//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of
-//! a visit have.
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] chooses the body and the mass for the
+//! trials of a visit have.
 //!
 //! The joint moments of a recording in a laboratory:
 //!

@@ -54,7 +54,7 @@ fn smpl_body(job: &Job, motion: &SmplMotion, mass_kg: f64, reading: &mut Reading
 /// A stature for proportions [m].
 const ANY_STATURE_M: f64 = 1.7;
 
-/// The mass, which the file does not hold.
+/// The body mass, which the file does not contain.
 fn mass(job: &Job, what: &str) -> Result<f64, JobError> {
     reject_unused_fields(job)?;
     job.size.mass_kg.ok_or_else(|| {

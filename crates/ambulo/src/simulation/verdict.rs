@@ -112,7 +112,7 @@ fn ground(recording: &WalkRecording) -> GroundForces {
     GroundForces { bodies: bodies.collect() }
 }
 
-/// The joint drives as generalised forces. Of the root's reaction only the moment that holds the trunk upright is a
+/// The joint drives as generalised forces. Only the moment of the root's reaction that holds the trunk upright is a
 /// residual; the other components keep the figure in its plane, and its translations are free. A verdict needs the
 /// reactions of no other joint.
 fn forces(recording: &WalkRecording) -> Forces {

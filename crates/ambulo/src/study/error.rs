@@ -68,7 +68,7 @@ pub enum StudyError {
         /// Names of the model's bodies.
         known: Vec<String>,
     },
-    /// A mass that no body can carry.
+    /// A carried mass with which the model is not valid.
     #[error(transparent)]
     AddedMass(ModelError),
     /// A force plate that the recording does not have.
@@ -105,7 +105,7 @@ pub enum Input {
 
 impl StudyError {
     /// The part of the source that the error is about; `None` if it is about none or about all of them. A standing
-    /// trial is named where the body was looked for in it: without one, the same errors are about the motion.
+    /// trial is named if the body was searched for in it; otherwise the errors are about the motion.
     #[must_use]
     pub fn input(&self) -> Option<Input> {
         match self {
@@ -132,7 +132,7 @@ impl StudyError {
     }
 }
 
-/// Whether the body was being looked for in the standing trial.
+/// Whether the body was searched for in the standing trial.
 fn is_about_calibration(error: &MarkerTrialError) -> bool {
     match error {
         MarkerTrialError::Calibration(CalibrationError::Build(_))

@@ -1,7 +1,7 @@
 //! Body mass: stated, or weighed on plates; which value is used, and whether the values agree.
 //!
 //! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass.
-//! Where two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
+//! If two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
 //! the person too light on them, while only a wrong calibration or a carried load makes the person too heavy.
 
 use super::source::{MarkerBody, MarkerSource};

@@ -27,7 +27,7 @@ struct NotMeasured {
 }
 
 /// Finds and reports the coordinates of a motion, fitted to a recording, that are not measured.
-/// Each comes with whether it is held.
+/// Each comes with a flag: whether it is held.
 pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     let asked = || model.coordinate_ids().filter(|id| is_asked(model, *id));
     let found: Vec<NotMeasured> = asked().filter_map(|id| of_coordinate(model, motion, id)).collect();

@@ -62,7 +62,7 @@ pub(super) enum ObservedMotion {
     Complete(Trajectory),
 }
 
-/// Data of a recording besides the motion.
+/// Data of a recording other than the motion.
 struct Statements {
     forces: MeasuredForces,
     device: Option<Table>,
@@ -82,7 +82,7 @@ pub(super) enum Origin {
     },
 }
 
-/// A body that followed markers, and what the files state besides.
+/// A body that followed markers, and further statements of the files.
 pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.

@@ -1,4 +1,4 @@
-//! The clock of a recording before anything is computed from it: the time between its samples, held samples, and the
+//! Checks of the clock of a recording before any computation: the time between its samples, held samples, and the
 //! delay of the forces that the caller states.
 //! Pinned by: tests/study_timing.rs
 

@@ -18,7 +18,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use std::sync::Arc;
 
-/// A recording with everything that is known about it. It holds data; names of files appear in messages only.
+/// A recording with all statements about it. It contains data; names of files appear in messages only.
 #[derive(Debug, Clone)]
 pub struct Source {
     /// The recorded motion.

@@ -135,7 +135,7 @@ impl<'a> Carried<'a> {
         all.flatten().collect()
     }
 
-    /// The recorded time without the stances that the motion shows and no force carries.
+    /// The recorded time without stances that were detected in the motion and have no measured force.
     fn windows_by_load(&self, recorded: [f64; 2], seen: &BySide<Vec<[f64; 2]>>) -> Vec<[f64; 2]> {
         let mut free = if recorded[1] > recorded[0] { vec![recorded] } else { Vec::new() };
         for (side, stances) in seen.iter() {

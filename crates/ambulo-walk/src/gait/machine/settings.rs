@@ -17,7 +17,7 @@ pub struct MachineSettings {
     /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it
     /// ends.
     pub during: Option<(String, String)>,
-    /// Whether it goes on in its last state when it runs again; otherwise it restarts in its first state.
+    /// Whether the machine resumes its last state when it runs again; otherwise it restarts in its first state.
     pub resumes: bool,
     /// States; it starts in the first one.
     pub(crate) states: Vec<StateSettings>,

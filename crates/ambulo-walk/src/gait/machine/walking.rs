@@ -390,7 +390,7 @@ pub fn planned(walk: Walk, cycles: f64, longest_s: f64, findings: &mut Findings)
 
 /// Cycles until machines repeat what they do, cycles in which this is judged, and instants of each.
 const JUDGED: (usize, usize, usize) = (4, 20, 500);
-/// Difference of an angle from one cycle to the next that is none [rad]: a transition may be noticed one instant later.
+/// Negligible difference of an angle between two cycles [rad]: a transition may be detected one instant later.
 const SAME_ANGLE: f64 = 0.03;
 
 /// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four

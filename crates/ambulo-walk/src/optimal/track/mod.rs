@@ -51,7 +51,7 @@ const LONGEST_S: f64 = 120.0;
 /// Shortest recording, in knot intervals.
 const SHORTEST: usize = 8;
 
-/// Data of a foot besides its motion.
+/// Data of a foot other than its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootGuide {
     /// The sole.
@@ -74,7 +74,7 @@ pub struct FootGuide {
 pub struct TrackSettings {
     /// Deviation of a joint angle that costs 1 [rad].
     pub angle: f64,
-    /// Largest change of a joint angle that costs nothing besides [rad]: more than the errors of markers and of
+    /// Largest change of a joint angle without additional cost [rad]: more than the errors of markers and of
     /// skeletons.
     pub most_change: f64,
     /// Angle beyond this change, or beyond the range of the joint, that costs 1 [rad].
@@ -140,7 +140,7 @@ pub enum TrackError {
         /// Name of the model.
         model: String,
     },
-    /// A body that is held.
+    /// A body whose root cannot move freely.
     #[error("the root of the model `{model}` does not move freely; expected six free coordinates at the root")]
     HeldRoot {
         /// Name of the model.
@@ -304,7 +304,7 @@ impl<'a> TrackProblem<'a> {
         Ok(TrackProblem { problem, guess, recorded, kept, floor_m, belt })
     }
 
-    /// Solves the problem; goes on with the last stage if forces at the root remain.
+    /// Solves the problem; repeats the last stage if forces at the root remain.
     ///
     /// # Errors
     /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that
@@ -392,7 +392,7 @@ impl<'a> TrackProblem<'a> {
     }
 }
 
-/// Instants of the problem: every so many frames of the recording, and a few after its end.
+/// Instants of the problem: every n-th frame of the recording, and a few after its end.
 struct Instants {
     /// Frames from one instant to the next.
     frames: usize,

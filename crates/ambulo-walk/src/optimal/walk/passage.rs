@@ -1,7 +1,7 @@
 //! A part of a walk that does not repeat: a change of pace, a start or a halt, as one motion whose ends are given.
 //!
 //! It begins in the state of the motion before and ends in the state of the motion after, both of which repeat: a walk,
-//! or standing. So no force from outside is needed at any time. The place of its end is free: the walk goes on from
+//! or standing. So no force from outside is needed at any time. The place of its end is free: the walk continues from
 //! there.
 //!
 //! **Ends.** Five coefficients of a quintic spline determine its value and its first four derivatives at a knot. With

@@ -19,7 +19,7 @@ const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]]
 /// Smallest height of a swinging sole while the figure walks [m]. It is less with the square of the share of walking,
 /// as the height to which the gait lifts the sole is.
 const CLEARANCE: f64 = 0.008;
-/// Share of walking below which both feet carry what a standing figure asks of them.
+/// Share of walking below which both feet carry the load of standing.
 const STANDS_BELOW: f64 = 0.2;
 /// Largest extension of the toes in the first guess [rad].
 const TOES_LIMIT: f64 = 0.8;

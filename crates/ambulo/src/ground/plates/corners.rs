@@ -43,10 +43,10 @@ const FARTHEST_M: f64 = 0.4;
 const STEP_S: [f64; 2] = [0.15, 1.6];
 /// Loads from this share of the largest force of the plates show the centre of pressure.
 const SOLID: f64 = 0.3;
-/// Samples that are looked at in a step.
+/// Number of samples evaluated per step.
 const SAMPLES: usize = 40;
 
-/// How the loads of some plates lie with their corners in one order.
+/// Fit of the loads of some plates to the feet, with one order of corners.
 #[derive(Debug, Clone, Copy, Default)]
 struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
@@ -160,7 +160,7 @@ fn excerpt(plate: &PlateRecording, samples: &[usize]) -> PlateRecording {
     }
 }
 
-/// How the loads of all samples lie.
+/// Fit of the loads of all samples.
 fn fit(feet: &FeetInMotion<'_>, plate: &PlateRecording) -> Fit {
     let mut fit = Fit::default();
     for i in 0..plate.times.len() {

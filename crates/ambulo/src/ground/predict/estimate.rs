@@ -39,7 +39,7 @@ use std::ops::Range;
 /// Of a stance in progress at most this long is evaluated before the wanted frames, in √(L/g): most of two steps.
 const LONGEST_PAST: f64 = 4.0;
 
-/// The part of a motion that decides about the wanted frames.
+/// The part of a motion on which the wanted frames depend.
 struct Extent {
     stances: Vec<Stance>,
     /// Frames whose total wrench is compared.

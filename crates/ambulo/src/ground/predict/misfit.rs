@@ -10,7 +10,7 @@
 //! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`])    |
 //! | `arm`     | r        | m    | from the mass centre to the expected centre of pressure |
 //!
-//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces
+//! Noise that the estimate can explain is not in w. The rest is motion that contradicts the shapes of forces
 //! of walking: because markers are missing (on the trunk, for example), or because the body moves fast.
 
 use super::deviation_calibration::Misfit;

@@ -310,7 +310,7 @@ pub(super) struct KnownMotion {
 }
 
 /// As [`predict`], but only in the `wanted` frames; the forces and deviations of the others are zero. Where these are
-/// not all frames, only the part of the motion that decides about them is evaluated ([`estimate`]).
+/// not all frames, only the part of the motion on which they depend is evaluated ([`estimate`]).
 pub(super) fn predict_frames(
     model: &Model,
     soles: &BySide<Sole>,

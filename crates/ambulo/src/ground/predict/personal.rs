@@ -39,8 +39,8 @@ pub struct PersonalErrors {
     pub excess: f64,
 }
 
-/// Mean errors beyond so many standard deviations of the estimate come from one person in 300, or from plates, markers
-/// or a mass that do not belong together.
+/// Mean errors beyond this number of standard deviations of the estimate come from one person in 300, or from plates,
+/// markers or a mass that do not belong together.
 const USUAL_EXCESS: f64 = 3.0;
 
 /// A person that is not the calibrated one.

@@ -23,8 +23,8 @@ pub const KNOTS: [f64; 15] = [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.
 const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
-/// The same for the curve of a usual strike and for its change with the descent. The curve itself hardly carries over
-/// to other laboratories and is held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
+/// As above, for the curve of a usual strike and for its change with the descent. The curve itself is of little use in
+/// other laboratories and has a large ridge; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
 /// errors of subjects and laboratories left out.
 const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
 /// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the

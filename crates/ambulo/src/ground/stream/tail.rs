@@ -30,7 +30,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Share of a change in later frames that remains in a settled frame.
 const SETTLED: f64 = 1e-4;
-/// Neighbours on each side that decide about the derivatives of a spline; the next one has 2e-8 of the weight of the
+/// Neighbours on each side on which the derivatives of a spline depend; the next one has 2e-8 of the weight of the
 /// first.
 pub const NEIGHBOURS: usize = 20;
 

@@ -42,7 +42,7 @@ impl FoundFile {
         FoundFile { path: path.to_owned(), name: last(path), folder: String::new() }
     }
 
-    /// The folder that it lies in, in the same form.
+    /// The folder of the file, in the same form.
     pub(super) fn own_folder(&self) -> &str {
         self.name.rsplit_once('/').map_or("", |(folder, _)| folder)
     }

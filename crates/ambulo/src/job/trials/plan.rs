@@ -416,7 +416,7 @@ impl<'a> Folders<'a> {
         folders
     }
 
-    /// The trial of a recording, or why it is none.
+    /// The trial of a recording, or the reason why it is no trial.
     fn trial(
         &self,
         file: &FoundFile,

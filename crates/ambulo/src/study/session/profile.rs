@@ -156,7 +156,7 @@ pub struct Deviation {
     pub outside: f64,
 }
 
-/// Deviation of a mean curve from a reference group. Where the group hardly varies, in less than 5 % of its largest
+/// Deviation of a mean curve from a reference group. Where the group varies little, in less than 5 % of its largest
 /// standard deviation, that share is used. `None` for a group without variation.
 #[must_use]
 pub fn deviation(mean: &[f64], norm: &NormalCurve) -> Option<Deviation> {
