@@ -1,8 +1,8 @@
 //! What the content of a file is, by its first bytes.
 //!
 //! Files often have the name of another format, or contain a page of a server, a pointer to a large file or an archive
-//! in place of a recording. A reader that fails asks here what the file is, so that its error names the true reason. A
-//! file that can be read is never asked.
+//! in place of a recording. If a reader fails, the content is identified here, so that the error names the true reason.
+//! Readable files are not checked.
 //!
 //! Sources: git-lfs, docs/spec.md (the first line of a pointer); git-annex, doc/internals.mdwn (paths of objects);
 //! PKWARE, APPNOTE.TXT 4.3; the "magic" numbers of file(1). All from memory, unverified, except for formats that this
@@ -11,7 +11,7 @@
 use crate::error::Error;
 use crate::plain_text::utf8;
 
-/// Bytes in which a kind of content is looked for.
+/// Number of bytes that are searched for a kind of content.
 const HEAD_BYTES: usize = 4096;
 /// Fewest line breaks and characters that show damage by a program for text; fewer may be chance.
 const ENOUGH: usize = 4;

@@ -8,7 +8,7 @@ use crate::error::Remark;
 use memchr::memchr2;
 use std::borrow::Cow;
 
-/// Bytes of a table in which its separators are looked for.
+/// Number of bytes of a table that are searched for its separators.
 const HEAD_BYTES: usize = 1 << 18;
 
 /// The text of a table, and what was unusual in it.

@@ -243,7 +243,7 @@ pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
     Setting::papers_results()?.walk(trial)
 }
 
-/// Letters of the claims of the paper, now or formerly, that could fail: those that a file may list.
+/// Letters that a file may list: claims of the paper, now or formerly, that could fail.
 pub const CLAIMS: [&str; 22] = [
     "a1", "c1", "c2", "c3", "c4", "d1", "e1", "e2", "e3", "f2", "g1", "g2", "g3", "h1", "h2", "h3", "h4", "i", "j",
     "m1", "m2", "n1",

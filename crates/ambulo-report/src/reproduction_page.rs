@@ -243,7 +243,7 @@ fn boxed(title: &str, name: &str, words: &str, list: &str, files: &[OutputFile<'
     )
 }
 
-/// A paragraph of a class; nothing without words.
+/// A paragraph of a class; empty without words.
 fn paragraph(class: &str, words: &str) -> String {
     match (words, class) {
         ("", _) => String::new(),

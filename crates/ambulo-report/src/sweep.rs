@@ -331,7 +331,7 @@ impl<'a> Sweep<'a> {
         self.found().flat_map(|(.., found)| &found.curves).find(|curve| curve.id == id)
     }
 
-    /// The envelope of all walks, and the mean of those that have the same value of the coloured condition.
+    /// The envelope of all walks, and the mean of walks with the same value of the coloured condition.
     fn panel(&self, id: &str, movement: &str) -> Option<ChartPanel> {
         let example = self.example(id)?;
         let mut groups: BTreeMap<String, (f64, Vec<&[f64]>)> = BTreeMap::new();

@@ -432,7 +432,7 @@ impl MovingLink {
     }
 }
 
-/// The moving axes of a model, carriers first, and the last one that moves each body.
+/// The moving axes of a model, parents first, and the last axis that moves each body.
 fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
     let (mut links, mut link_of_body): (Vec<MovingLink>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
     for (index, (segment, body)) in plan.segments.iter().zip(model.bodies()).enumerate() {

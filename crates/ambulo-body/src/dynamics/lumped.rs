@@ -50,7 +50,7 @@ fn is_first(link: &Link) -> bool {
 }
 
 impl LumpedGraph {
-    /// Makes the smaller graph; returns false if there is none. `outwards`: bodies, parents first.
+    /// Makes the smaller graph; returns false if no bodies can be lumped. `outwards`: bodies, parents first.
     pub(super) fn take(&mut self, full: &ConstraintGraph, outwards: &[(usize, Option<usize>)]) -> bool {
         if full.links.iter().all(is_first) {
             return false;

@@ -234,7 +234,7 @@ impl Newton<'_, '_> {
             self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
-            // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops,
+            // Displacements are projected with the initial ρ: modes that yield little to it belong to stretched loops,
             // and would be moved far to correct little.
             self.rho = self.plain;
             self.guess(lambda);

@@ -747,7 +747,7 @@ impl Code {
         self.entry().name
     }
 
-    /// The code of a name; `None` if there is none.
+    /// The code with this name; `None` if the name is unknown.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)

@@ -1,6 +1,6 @@
 //! Warnings and notes that computations collect for the user.
 //!
-//! A function that meets partial trouble reports it to the [`Findings`] that its caller passes in, and goes on. Every
+//! A function that can continue despite a problem reports it to the [`Findings`] that its caller passes in. Every
 //! kind of finding has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation
 //! depends on them.
 

@@ -248,7 +248,7 @@ pub fn segments(model: &Model) -> Vec<(Segment, Option<Side>)> {
     found
 }
 
-/// The poses of all bodies at these coordinates, but without the coordinates of which a skeleton shows nothing, so that
+/// The poses of all bodies at these coordinates, without coordinates that a skeleton does not show, so that
 /// the joints keep them.
 fn poses_shown(model: &Model, mut coordinates: Vec<f64>) -> Vec<Pose> {
     for (value, coordinate) in coordinates.iter_mut().zip(model.coordinates()) {
@@ -263,7 +263,7 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.coordinates().iter().map(|coordinate| coordinate.default_value).collect()
 }
 
-/// The coordinates of one frame; those that are not recorded have their default values.
+/// The coordinates of one frame; unrecorded coordinates have their default values.
 fn coordinates(model: &Model, motion: &Motion, frame: usize) -> Vec<f64> {
     let recorded = motion.columns.iter().map(|column| column.as_ref().map(|column| column[frame]));
     recorded.zip(defaults(model)).map(|(recorded, default)| recorded.unwrap_or(default)).collect()

@@ -6,7 +6,7 @@
 //! centre, which the file also states, shows whether that order is right.
 //!
 //! The ground force of many frames is marked as missing, with a reason: a foot next to the plates, a force that
-//! contradicts the motion. Its value is then often zero and means nothing. Only the longest time without such a frame
+//! contradicts the motion. Its value is then often zero and has no meaning. Only the longest time without such a frame
 //! is used as measured.
 //!
 //! Source: keenon/nimblephysics, `dart/biomechanics/OpenSimParser.cpp` and `SubjectOnDisk.cpp`.

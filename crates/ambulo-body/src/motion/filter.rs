@@ -32,7 +32,7 @@ use std::f64::consts::PI;
 
 /// Highest order: the sections of higher orders ring.
 pub const MAX_ORDER: usize = 8;
-/// Lowest cut-off [Hz]: below it a filter leaves nothing of a recording of a few seconds.
+/// Lowest cut-off [Hz]: below it a filter removes the whole motion of a recording of a few seconds.
 pub const LOWEST_CUTOFF_HZ: f64 = 0.1;
 
 /// Smallest number of samples that can be filtered: OpenSim's limit.

@@ -118,7 +118,7 @@ impl MarkerRecording {
     }
 
     /// Removes the frames at both ends in which less than half of the markers are visible: the person walks into and
-    /// out of the view of the cameras. Returns the whole recording if nothing would be left.
+    /// out of the view of the cameras. Returns the whole recording if no frames would be left.
     #[must_use]
     pub fn trimmed_to_visible(&self) -> MarkerRecording {
         let ever_seen: Vec<&MarkerPath> =

@@ -130,9 +130,9 @@ pub(crate) fn with_place_of_options(mut refused: clap::Error) -> clap::Error {
 /// How to treat an existing file that no earlier run wrote.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
-    /// It stays, and nothing is written.
+    /// The file is kept, and nothing is written.
     Kept,
-    /// It is replaced (`--force`).
+    /// The file is replaced (`--force`).
     Replaced,
 }
 

@@ -19,7 +19,7 @@ impl Words {
         self.0.extend(is_given.then(|| option.into()));
     }
 
-    /// A file without an option; its name is never taken for one.
+    /// A file without an option; its name is never read as an option.
     pub(super) fn input(&mut self, path: &Path) {
         let is_like_an_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
         let path = if is_like_an_option { Path::new(".").join(path) } else { path.to_owned() };

@@ -116,7 +116,7 @@ pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, pr
     }
     let text = format!("{done} of {all} trials, {rate:.1} a second, about {left_s:.0} s left");
     if stderr().is_terminal() {
-        // As in `say`, the batch goes on if this cannot be written.
+        // As in `say`, the batch continues if this cannot be written.
         let _ = write!(stderr(), "\r{text}   {}", if done == all { "\n" } else { "" });
     } else if done.is_multiple_of(all.div_ceil(LINES).max(1)) || done == all {
         say(format_args!("{text}"));

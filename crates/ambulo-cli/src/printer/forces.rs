@@ -245,7 +245,7 @@ fn print_shares(ground: &Ground) -> Result<()> {
     ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }
 
-/// Prints which checks of a prediction passed, with the values of those that failed.
+/// Prints the passed checks of a prediction, and the failed checks with their values.
 fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
     let names = |passed: Option<bool>| of(passed).map(|check| &*check.name).collect::<Vec<_>>().join(", ");

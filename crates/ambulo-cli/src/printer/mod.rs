@@ -61,7 +61,7 @@ fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed
+/// Prints a line on standard error. The computation continues if the line cannot be written, for example into a closed
 /// pipe.
 fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{}", visible(&line.to_string()));
@@ -158,7 +158,7 @@ pub(crate) fn states(
         return if print.quiet { Ok(()) } else { states_as_json(&table, &changes, findings) };
     }
     let lines = ChangeTable::of(walk);
-    // Nothing is printed of a gait that is refused, so the machines come with the first change.
+    // A rejected gait prints nothing, so machines are printed with the first change.
     let heading = || {
         print_findings(findings.as_slice());
         print_line(&format!("{}\n\n{}", table.trim_end(), lines.header()))
@@ -186,7 +186,7 @@ pub(crate) fn stream_description(description: &impl serde::Serialize) -> Result<
     print_json(description)
 }
 
-/// Prints a line about a stream that goes on.
+/// Prints a line about a running stream.
 pub(crate) fn stream_line(line: &str) {
     say(format_args!("{}", visible(line)));
 }
@@ -200,7 +200,7 @@ fn print_findings(findings: &[Finding]) {
     }
 }
 
-/// Prints the first warnings, and how many warnings and notes there are besides.
+/// Prints the first warnings, and the number of further warnings and notes.
 fn print_warnings(findings: &[Finding]) {
     /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.
     const MOST: usize = 4;

@@ -225,7 +225,7 @@ impl MissingForce {
         "extended to the nearest peak of force",
     ];
 
-    /// Whether the force is missing; its value in the file means nothing then.
+    /// Whether the force is missing; its value in the file is then meaningless.
     #[must_use]
     pub fn is_missing(self) -> bool {
         self.0 != 0

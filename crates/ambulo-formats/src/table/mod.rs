@@ -126,7 +126,7 @@ impl Table {
         lines::is_time(name).then_some(values)
     }
 
-    /// Makes numbers that nothing can measure missing values: infinite ones, and those beyond `LARGEST`. Returns the
+    /// Replaces impossible numbers by missing values: infinite numbers, and numbers beyond `LARGEST`. Returns the
     /// remark on them.
     pub fn without_impossible(&mut self) -> Option<Remark> {
         let mut found: Option<(usize, String, f64)> = None;

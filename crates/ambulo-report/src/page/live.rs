@@ -1,4 +1,4 @@
-//! The page of a motion that is arriving: the figure of a model, moved by events, and curves of the last seconds.
+//! The live page: the figure of a model, moved by events, and curves of the last seconds.
 //!
 //! The page is a report with one instant and without curves; what follows comes as events ([`LiveFrame`],
 //! [`LiveState`]).

@@ -76,7 +76,7 @@ fn views(config: &Config) -> Vec<String> {
     ]
 }
 
-/// A motion that is arriving.
+/// The types of the live page.
 fn live(config: &Config) -> Vec<String> {
     vec![
         LivePage::decl(config),

@@ -1,5 +1,5 @@
-//! One computed trial of a session: its cycles in clinical signs, its strides, and what decides whether its cycles
-//! count.
+//! One computed trial of a session: its cycles in clinical signs, its strides, and the facts that decide whether its
+//! cycles count.
 
 use super::quantities::{FOOT_PROGRESSION, all};
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};

@@ -24,7 +24,8 @@ pub struct BorderedSystem {
 }
 
 impl BorderedSystem {
-    /// No terms yet: so many unknowns in the band, half the width of the band, and so many unknowns in the border.
+    /// A system without terms. Arguments: number of unknowns in the band, half the width of the band, number of
+    /// unknowns in the border.
     pub fn zeros(size: usize, bands: usize, border: usize) -> BorderedSystem {
         BorderedSystem {
             band: BandMatrix::zeros(size, bands),

@@ -77,7 +77,7 @@ impl ReductionProblem<'_> {
         [-most - at, most - at]
     }
 
-    /// Weight of a parameter of the body. Errors of a motion hardly vary along a trial (skin, marker placement,
+    /// Weight of a parameter of the body. Errors of a motion vary little along a trial (skin, marker placement,
     /// lengths), and a wrong parameter acts in every frame: it costs as much as a constant offset of a coordinate
     /// throughout the window.
     fn trust(&self, number: usize) -> f64 {

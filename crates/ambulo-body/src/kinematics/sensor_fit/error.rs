@@ -20,7 +20,7 @@ pub enum SensorError {
         /// Names that would be known.
         example: String,
     },
-    /// A sensor sent nothing in the posture of the calibration.
+    /// A sensor has no data in the posture of the calibration.
     #[error(
         "the sensor `{sensor}` has no orientation in the standing posture ({place}); expected one. hint: choose a \
          standing trial in which all sensors send, or remove the column"
@@ -28,7 +28,7 @@ pub enum SensorError {
     NotCalibrated {
         /// Name of the sensor.
         sensor: String,
-        /// Where the standing posture was looked for.
+        /// Where the standing posture was searched for.
         place: String,
     },
     /// A sensor of the heading that is not there.

@@ -245,7 +245,7 @@ fn fill_undetermined(model: &Model, motion: &mut Motion, findings: &mut Findings
     Ok(())
 }
 
-/// Reports sensors that sent nothing in some frames.
+/// Reports sensors without data in some frames.
 fn report_gaps(moving: &SensorRecording, placed: &[PlacedSensor], findings: &mut Findings) {
     for sensor in placed {
         let path = &moving.sensors[sensor.number].orientations;

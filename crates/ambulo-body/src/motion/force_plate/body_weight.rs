@@ -1,10 +1,10 @@
 //! Recognises the unit of measured forces by what a step weighs.
 //!
-//! A step looks the same in every unit: the vertical force rises steeply from nothing, stays up and falls back. Over a
-//! step of duration t the mean force is m g (T / t), with the time T from one step to the next, because the mean over
-//! all steps is the weight (Newton). Walking has t = 1.2 T (a stance of 60 % of the stride); running has 2.8 steps a
-//! second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish newtons,
-//! kilonewtons and body weights.
+//! A step has the same shape in every unit: the vertical force rises steeply from zero, stays high and falls to zero.
+//! Over a step of duration t the mean force is m g (T / t), with the time T from one step to the next, because the mean
+//! over all steps is the weight (Newton). Walking has t = 1.2 T (a stance of 60 % of the stride); running has 2.8 steps
+//! a second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish
+//! newtons, kilonewtons and body weights.
 //!
 //! Pinned by: tests/motion_body_weight.rs
 
@@ -43,8 +43,8 @@ pub enum ForceUnit {
 }
 
 impl ForceUnit {
-    /// The unit in which this is a step of a person, if it is none in newtons. `stepped` is [`stepped_weight`] in the
-    /// unit of the file, `weight_n` the weight of the person, if it is known [N].
+    /// The unit in which this is a step of a person, if it is no plausible step in newtons. `stepped` is
+    /// [`stepped_weight`] in the unit of the file, `weight_n` the weight of the person, if it is known [N].
     #[must_use]
     pub fn of_steps(stepped: f64, weight_n: Option<f64>) -> Option<ForceUnit> {
         let is_person = match weight_n {

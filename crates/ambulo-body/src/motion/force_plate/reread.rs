@@ -59,7 +59,7 @@ impl PlateRecording {
         })
     }
 
-    /// The plate with another unit in place of the one that was assumed: forces multiplied by a factor, and moments if
+    /// The plate with another unit in place of the assumed one: forces multiplied by a factor, and moments if
     /// they had the same unit.
     #[must_use]
     pub fn with_unit(&self, factor: f64) -> PlateRecording {

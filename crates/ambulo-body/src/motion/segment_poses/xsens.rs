@@ -88,7 +88,7 @@ pub fn events_from_mvnx(mvnx: &Mvnx) -> Vec<Event> {
     events
 }
 
-/// Numbers of all frames from the first to the last, with those that the file lacks.
+/// Numbers of all frames from the first to the last, including missing ones.
 fn frame_numbers(mvnx: &Mvnx) -> Result<Vec<u64>, SegmentPoseError> {
     let (Some(first), Some(last)) = (mvnx.frames.first(), mvnx.frames.last()) else {
         return Err(SegmentPoseError::NeverSeen);
@@ -100,7 +100,7 @@ fn frame_numbers(mvnx: &Mvnx) -> Result<Vec<u64>, SegmentPoseError> {
     Ok((first..=last).collect())
 }
 
-/// The poses of one segment; `None` in frames that the file lacks.
+/// The poses of one segment; `None` in frames that are missing in the file.
 fn path(mvnx: &Mvnx, place: usize, segment: PosedSegment, numbers: &[u64]) -> Vec<Option<Pose>> {
     let turn = hanging(segment);
     let mut path = vec![None; numbers.len()];

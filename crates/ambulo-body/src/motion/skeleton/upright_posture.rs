@@ -2,7 +2,7 @@
 //!
 //! In the resting pose of a file (all channels zero) all joints have the axes of the file. If this pose is upright, it
 //! shows the orientation of pelvis, thigh, shank and foot in standing. Otherwise (skeletons whose bones all lie along
-//! one axis) a calibration pose is looked for among the frames: straight legs, and straight arms to both sides, level
+//! one axis) a calibration pose is searched for among the frames: straight legs, and straight arms to both sides, level
 //! (T) or half lowered (A), which does not happen by chance in walking. Without one the directions are averaged over
 //! the recording, in the axes of each joint.
 

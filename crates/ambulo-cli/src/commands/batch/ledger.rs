@@ -106,7 +106,7 @@ impl Ledger {
         Ok(ledger)
     }
 
-    /// Writes the description, or compares it with the one that is there.
+    /// Writes the description, or compares it with the existing one.
     fn agree(&self, path: &Path, description: &Description) -> Result<()> {
         // Beside the lock: after a kill the folder is still one without other files.
         let own = place_of_lock(&self.folder, self.shard).join(BATCH);

@@ -176,7 +176,7 @@ fn save(
     Ok(summary)
 }
 
-/// SHA-256 of the recordings, sorted; those that cannot be read have none.
+/// SHA-256 of the readable recordings, sorted.
 fn hashes(trials: &[&PlannedTrial]) -> Vec<String> {
     let mut hashes: Vec<String> = trials.iter().filter_map(|trial| hash_of_file(&trial.files.recording).ok()).collect();
     hashes.sort();

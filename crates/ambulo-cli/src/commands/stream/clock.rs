@@ -8,11 +8,11 @@
 const UNITS: [(&str, f64); 3] = [("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", 1e9)];
 /// Intervals that show a unit differ by less than this from one another.
 const NEAR: f64 = 0.25;
-/// An interval longer than so many usual ones has a lost frame.
+/// An interval that is longer than the usual one by this factor has a lost frame.
 const LOSS: f64 = 1.75;
 /// Equal intervals that show a unit; fewer may be two losses.
 const ENOUGH_FOR_UNIT: usize = 2;
-/// Intervals of which most must show another rate; of equal intervals fewer are enough.
+/// Number of intervals most of which must have another rate; fewer equal intervals are enough.
 const ENOUGH_FOR_RATE: usize = 20;
 const ENOUGH_EQUAL: usize = 5;
 /// Intervals without jitter differ by less.
@@ -56,7 +56,7 @@ impl Clock {
         self.is_judged
     }
 
-    /// The number of the frame at a time; `None` if there is none.
+    /// The number of the frame at a time; `None` if no frame has this time.
     #[must_use]
     pub fn number(&self, time: f64) -> Option<u64> {
         let number = (time / self.per_second * self.rate_hz).round();

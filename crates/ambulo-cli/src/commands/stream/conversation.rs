@@ -17,13 +17,13 @@ use anyhow::{Result, anyhow, bail};
 
 /// A longer gap restarts the stream [s], as in the library.
 const LONGEST_GAP_S: f64 = 0.2;
-/// A number that lies farther back begins a new sequence [s].
+/// A number that is further back than this begins a new sequence [s].
 const NEW_SEQUENCE_S: f64 = 1.0;
-/// So many frames with numbers in order after the last one begin a new sequence: at its first number or zero, and at
+/// Number of frames with numbers in order after which a new sequence begins: at its first number or zero, and at
 /// another number, where they may be repeated or late ones.
 const RUN_FROM_THE_FIRST: usize = 2;
 const RUN: usize = 5;
-/// So many notices of a kind are printed; all are counted and, as JSON, answered.
+/// Printed notices of each kind; all notices are counted and, with JSON, sent as answers.
 const PRINTED: u64 = 5;
 
 /// Content of a sender's frames.
@@ -42,7 +42,7 @@ enum Naming {
     Refused,
 }
 
-/// A frame whose number lies before the last one: repeated, late, or the beginning of a new sequence, which the frames
+/// A frame whose number is before the last one: repeated, late, or the beginning of a new sequence, which the frames
 /// after it show.
 struct Held {
     number: u64,
@@ -84,7 +84,7 @@ pub(super) struct Conversation<'a> {
     /// Answers that were not sent yet.
     pub(super) out: Vec<u8>,
     counts: Counts,
-    /// Why nothing that came could be used; known at the end.
+    /// Why no message could be used; known at the end.
     unused: Option<String>,
 }
 
@@ -263,7 +263,7 @@ impl<'a> Conversation<'a> {
         self.use_frame(number, &values)
     }
 
-    /// Keeps a frame whose number lies before the last one, until it is known whether a new sequence has begun.
+    /// Keeps a frame whose number is before the last one, until it is known whether a new sequence has begun.
     fn hold(&mut self, held: Held) -> Result<()> {
         if self.held.last().is_some_and(|last| last.number + 1 != held.number) {
             self.give_up_held();

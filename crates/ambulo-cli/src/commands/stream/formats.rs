@@ -111,7 +111,7 @@ pub(crate) struct MarkerDescription {
     pub(crate) axes: LabAxes,
 }
 
-/// A message of the command besides the description.
+/// A message of the command other than the description.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub(super) enum Answer {
@@ -149,7 +149,7 @@ pub fn from_json(line: &[u8]) -> Result<Message> {
     })
 }
 
-/// Bytes of a record with so many values.
+/// Bytes of a record with this number of values.
 #[must_use]
 pub fn record_bytes(values: usize) -> usize {
     4 * (values + 1)

@@ -93,7 +93,7 @@ impl MarkerFrames {
     /// markers that only model or stream have.
     ///
     /// # Errors
-    /// A name twice, or none that the model has; nothing is changed then.
+    /// A repeated name, or no name of the model; the state then does not change.
     pub(super) fn name_markers(&mut self, model: &Model, message: &Message) -> Result<Option<String>> {
         let mut findings = Findings::default();
         if let Some(names) = message.marker_names() {

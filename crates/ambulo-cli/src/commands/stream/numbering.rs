@@ -8,7 +8,7 @@ const REMEMBERED: u64 = 64;
 pub enum Place {
     /// The expected frame.
     Next,
-    /// So many frames before it are missing.
+    /// This number of frames before it are missing.
     After(u64),
     /// The frame was received before.
     Doubled,
@@ -33,7 +33,7 @@ impl Numbering {
         self.last.map_or(0, |last| last.saturating_add(1))
     }
 
-    /// Adds a number. A number that lies more than `far` before the expected one begins a new sequence.
+    /// Adds a number. A number that is more than `far` before the expected one begins a new sequence.
     pub fn place(&mut self, number: u64, far: u64) -> Place {
         let Some(last) = self.last else {
             self.begin(number);

@@ -1,4 +1,4 @@
-//! Reads from a connection that may send nothing, or a byte now and then.
+//! Reads from a connection that may be silent or slow.
 
 use std::cell::Cell;
 use std::io::{ErrorKind, Read};
