@@ -30,7 +30,7 @@ pub(crate) const CSV: &str = "a table of comma-separated values (.csv)";
 /// A kind of content.
 struct Kind {
     name: &'static str,
-    /// How to get what a reader expects.
+    /// Remedy: how to get the expected content.
     remedy: &'static str,
     is: fn(&Head<'_>) -> bool,
 }

@@ -19,7 +19,7 @@ pub enum Error {
         found: &'static str,
         /// The format that is read.
         expected: &'static str,
-        /// How to get it.
+        /// Remedy: how to get the expected content.
         remedy: &'static str,
     },
     /// A line of a text file does not follow the format.

@@ -20,7 +20,7 @@ pub enum ClaimKind {
 }
 
 impl ClaimKind {
-    /// In a table.
+    /// Words for tables.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {

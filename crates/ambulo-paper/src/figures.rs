@@ -25,7 +25,7 @@ pub struct PaperFigure {
 /// One set of axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperPanel {
-    /// Above the axes.
+    /// Title above the axes.
     pub title: String,
     /// Quantity and unit of the abscissa.
     pub x_label: &'static str,

@@ -17,7 +17,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-/// How often a computation looks whether the user pressed Ctrl-C.
+/// Interval at which a computation checks whether the user pressed Ctrl-C.
 pub(crate) const SIGNALS: Duration = Duration::from_millis(50);
 /// As much as the first thread of a program usually has.
 const STACK_BYTES: usize = 8 << 20;

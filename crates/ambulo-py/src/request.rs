@@ -27,7 +27,7 @@ struct Named<'a, 'py> {
 }
 
 impl Given {
-    /// From options by their names in Python. None and the defaults of Python are left out.
+    /// Makes a request from options by their names in Python. None and the defaults of Python are left out.
     pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Given> {
         let mut request = Given::default();
         for (name, value) in options {

@@ -48,7 +48,7 @@ const fn quantity(column: &'static str, title: &'static str, unit: &'static str,
 pub struct BatchTrial {
     /// Path of the recording.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// Why it was not computed.
     pub error: Option<String>,

@@ -42,7 +42,7 @@ impl ClinicalGroup {
     }
 }
 
-/// Which coordinates of a model measure which movements, and their signs.
+/// Coordinates of a model that measure clinical movements, and their signs.
 #[derive(Debug, Clone)]
 pub struct ClinicalNames {
     entries: Vec<Entry>,

@@ -27,7 +27,7 @@ const SIZE: (f64, f64) = (260.0, 90.0);
 pub struct ListedTrial {
     /// Path of the recording.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The standing trial.
     pub standing: Option<String>,

@@ -61,14 +61,14 @@ pub struct HuntCrossley {
     pub rate_slope: f64,
     /// Dry friction against slip speed.
     pub friction_curve: FrictionCurve,
-    /// Where the force begins.
+    /// Distance at which the force begins.
     pub onset: Onset,
 }
 
-/// Where the force of a contact begins.
+/// Distance at which the force of a contact begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Onset {
-    /// Where the surfaces meet; the force never pulls.
+    /// The force begins at contact of the surfaces and never pulls.
     #[default]
     AtTouch,
     /// As published: smoothly, before the surfaces meet, with a small pull while they part fast, and √(v² + ε) as slip

@@ -198,7 +198,7 @@ struct Composite<const N: usize> {
     mass: f64,
     /// m c [kg.m].
     first_moment: V3<N>,
-    /// About the origin of the world [kg.m²].
+    /// Inertia about the origin of the world [kg.m²].
     inertia: M3<N>,
     /// T of the equations, and the linear momentum p.
     coriolis: M3<N>,

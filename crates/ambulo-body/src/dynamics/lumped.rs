@@ -35,7 +35,7 @@ pub(super) struct LumpedGraph {
     of: Vec<usize>,
     /// The body with freedom in each lumped body.
     first: Vec<usize>,
-    /// From the mass centre of the first body to the common one [m].
+    /// Vector from the mass centre of the first body to the common one [m].
     center: Vec<Vec3>,
     /// Vector from the common mass centre to the mass centre of each body [m].
     arm: Vec<Vec3>,

@@ -39,12 +39,12 @@ pub struct Finding {
     pub code: Code,
     /// Found value, place, and consequence.
     pub message: String,
-    /// How many times it occurred.
+    /// Number of times that it occurred.
     pub count: usize,
 }
 
 impl Finding {
-    /// How much it matters; every code has one severity.
+    /// Severity; every code has one.
     #[must_use]
     pub fn severity(&self) -> Severity {
         self.code.severity()

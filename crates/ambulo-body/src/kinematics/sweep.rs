@@ -34,9 +34,9 @@ pub(crate) struct BodyState<const N: usize> {
     pub(crate) alpha: V3<N>,
     pub(crate) v: V3<N>,
     pub(crate) a: V3<N>,
-    /// From the parent's mass centre to the joint centre [m].
+    /// Vector from the parent's mass centre to the joint centre [m].
     pub(crate) to_joint: V3<N>,
-    /// From the joint centre to the mass centre [m].
+    /// Vector from the joint centre to the mass centre [m].
     pub(crate) to_center: V3<N>,
 }
 
@@ -75,7 +75,7 @@ pub(crate) struct AxisStates<const N: usize> {
     pub(crate) slope: Vec<Lanes<N>>,
     sin: Vec<[f64; N]>,
     cos: Vec<[f64; N]>,
-    /// In the world.
+    /// Directions of the axes in the world.
     pub(crate) direction: Vec<V3<N>>,
 }
 

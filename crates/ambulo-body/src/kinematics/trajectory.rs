@@ -11,7 +11,7 @@ use crate::motion::{SmoothMotion, TimeGrid};
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     grid: TimeGrid,
-    /// Per coordinate: value, rate, acceleration, one entry per frame.
+    /// Columns of value, rate and acceleration per coordinate, with one entry per frame.
     columns: Vec<[Vec<f64>; 3]>,
 }
 

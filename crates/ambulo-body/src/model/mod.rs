@@ -123,13 +123,13 @@ impl CoordinateKind {
 /// How the value of a coordinate is determined.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
-    /// By the recording.
+    /// The recording.
     Free,
     /// Fixed at the default value.
     Locked,
-    /// By a function of time [s].
+    /// A function of time [s].
     Prescribed(Function),
-    /// By a function of another coordinate.
+    /// A function of another coordinate.
     Coupled(CoordinateId, Function),
 }
 

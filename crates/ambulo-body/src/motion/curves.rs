@@ -51,7 +51,7 @@ pub enum CurveError {
         time_s: f64,
         /// Change from the row before [deg].
         change_deg: f64,
-        /// How many more jumps there are, in words.
+        /// Number of further jumps, in words.
         more: String,
     },
 }

@@ -46,7 +46,7 @@ pub struct Laboratory {
     pub world_from_lab: Mat3,
     /// 1, or the factor that corrects a wrong unit.
     pub metres_per_stated_metre: f64,
-    /// How forward was determined.
+    /// Method that determined the forward direction.
     pub heading: Heading,
     /// Change of walking direction [deg]; `None` for a straight walk or none.
     pub turn_deg: Option<f64>,
@@ -54,12 +54,12 @@ pub struct Laboratory {
     pub statement: String,
 }
 
-/// How forward was determined.
+/// Method that determined the forward direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Heading {
-    /// By the motion of the pelvis.
+    /// The motion of the pelvis.
     Walking,
-    /// By the facing direction of a body that stays in place.
+    /// The facing direction of a body that stays in place.
     Facing,
     /// Unknown; an axis was assumed.
     Unknown,

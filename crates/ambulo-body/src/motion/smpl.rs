@@ -95,7 +95,7 @@ pub struct SmplMotion {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmplBody {
     joints: [Vec3; JOINTS],
-    /// From the ball of the foot to the tip of the toes [m].
+    /// Distance from the ball of the foot to the tip of the toes [m].
     ball_to_toe: f64,
     /// Where the lengths come from, in words.
     statement: String,
@@ -329,7 +329,7 @@ fn first<'n>(npz: &'n Npz, aliases: &[&'static str]) -> Result<(&'static str, Sh
 
 /// Shapes of the arrays of a motion.
 struct Layout {
-    /// Of all joints, or of the pelvis and the other joints.
+    /// Rotations of all joints, or of the pelvis and of the other joints.
     rotations: Vec<(Rotations, usize)>,
     places: &'static str,
     frames: usize,

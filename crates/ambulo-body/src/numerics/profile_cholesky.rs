@@ -21,7 +21,7 @@ use std::array;
 #[derive(Debug, Clone)]
 pub struct ProfileMatrix {
     first: Vec<usize>,
-    /// Where each row begins in `entries`.
+    /// Index in `entries` at which each row begins.
     starts: Vec<usize>,
     entries: Vec<f64>,
 }

@@ -142,7 +142,7 @@ struct Sweep {
     gait: Gait,
     build: Build,
     mode: SyntheticMode,
-    /// Of all walks, apart from slope and load.
+    /// Conditions of all walks, apart from slope and load.
     conditions: WalkConditions,
     points: Vec<SweptConditions>,
     load: Option<Load>,

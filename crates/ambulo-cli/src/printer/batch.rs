@@ -52,7 +52,7 @@ impl BatchRow {
     }
 }
 
-/// How many trials there are of each kind.
+/// Numbers of trials by kind.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct BatchCounts {
     pub(crate) trials: usize,

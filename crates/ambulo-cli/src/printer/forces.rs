@@ -114,7 +114,7 @@ fn outline(summary: &Summary) -> Result<()> {
     Ok(())
 }
 
-/// How far the motion was changed until feet on the ground supplied its external forces.
+/// Prints the changes by which tracking made feet on the ground supply the external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
     let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
     let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
@@ -240,7 +240,7 @@ fn print_ground(summary: &Summary) -> Result<()> {
     print_shares(&summary.ground)
 }
 
-/// Of which share of each leg's loaded time the load was measured, if it was not all of it.
+/// Prints the share of each leg's loaded time with measured load, if it is below 1.
 fn print_shares(ground: &Ground) -> Result<()> {
     ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }

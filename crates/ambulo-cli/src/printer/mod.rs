@@ -240,7 +240,7 @@ fn counted_reasons(count: usize) -> String {
     if count == 0 { String::new() } else { format!(", {count} reason{}", plural(count)) }
 }
 
-/// How many of them are printed; all are in summary.json.
+/// Number of reasons that are printed; all are in summary.json.
 fn reasons_shown(count: usize, print: PrintArgs) -> usize {
     if print.verbose { count } else { count.min(3) }
 }

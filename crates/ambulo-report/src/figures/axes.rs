@@ -39,13 +39,13 @@ pub struct Labels {
 /// The text at the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AxisWords<'a> {
-    /// Above the axes.
+    /// Title above the axes.
     pub(super) title: &'a str,
     /// Unit of the ordinate, on the right of the title.
     pub(super) unit: &'a str,
     /// Meaning of positive and negative values, written along the ordinate.
     pub(super) directions: [&'a str; 2],
-    /// Below the axes; `None` if the panel below has the same abscissa.
+    /// Label below the axes; `None` if the panel below has the same abscissa.
     pub(super) abscissa: Option<&'a str>,
     /// Space for a legend between the title and the axes [pt].
     pub(super) legend_height: f64,

@@ -82,7 +82,7 @@ fn place(columns: &[(String, &'static str)], name: &str) -> Option<usize> {
     columns.iter().position(|(column, _)| column == name)
 }
 
-/// Where force and centre of pressure of the right and the left foot are.
+/// Columns of force and centre of pressure of the right and the left foot.
 fn forces(columns: &[(String, &'static str)]) -> Vec<LiveForce> {
     let vector = |side: &str, letter: &str| {
         let axis = |axis: &str| place(columns, &format!("ground_force_{side}_{letter}{axis}"));

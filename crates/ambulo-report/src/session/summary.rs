@@ -18,7 +18,7 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation; `null` of a single number.
     pub sd: Option<f64>,
-    /// How many.
+    /// Number of values.
     pub n: usize,
 }
 
@@ -29,7 +29,7 @@ impl From<VariableScore> for Spread {
 }
 
 impl Spread {
-    /// Of at least one number.
+    /// Statistics of at least one number.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Spread> {
         let sd = sample_deviation(values);

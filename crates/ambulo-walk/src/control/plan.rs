@@ -62,7 +62,7 @@ pub struct Root {
     pub forward: usize,
     /// Along y.
     pub up: usize,
-    /// To the right; a planar figure has none.
+    /// Coordinate to the right; a planar figure has none.
     pub sideways: Option<usize>,
     /// Rotations.
     pub turns: Vec<usize>,

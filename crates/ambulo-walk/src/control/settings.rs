@@ -60,17 +60,17 @@ pub enum TorqueCurves {
 /// Deviations from the plan that have equal cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackingCosts {
-    /// Of the angle of a joint [rad].
+    /// Deviation of the angle of a joint [rad].
     pub angle: f64,
-    /// Of its rate [rad/s].
+    /// Deviation of the rate of a joint [rad/s].
     pub rate: f64,
-    /// Of the rotation of the pelvis in the world [rad].
+    /// Deviation of the rotation of the pelvis in the world [rad].
     pub pelvis: f64,
-    /// Of the height of the pelvis [m].
+    /// Deviation of the height of the pelvis [m].
     pub height: f64,
-    /// Of the place of the pelvis sideways [m].
+    /// Deviation of the sideways position of the pelvis [m].
     pub sideways: f64,
-    /// Of the velocity of the pelvis, along the ground and up [m/s].
+    /// Deviation of the velocity of the pelvis, along the ground and up [m/s].
     pub velocity: [f64; 2],
     /// Of the torque of a hip, knee, ankle or the lumbar joint [N.m]; arms have 0.3 and toes 0.2 times as much.
     pub torque: f64,

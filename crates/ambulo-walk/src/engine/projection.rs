@@ -47,7 +47,7 @@ struct Travel<'a> {
     share: f64,
 }
 
-/// Where drives take their coordinates.
+/// Places from which drives take their coordinates.
 #[derive(Debug, Clone, Copy)]
 struct Drives<'a> {
     prescribed: &'a Prescribed,

@@ -41,7 +41,7 @@ pub struct Knot {
     pub slope: SpeedLaw,
     /// Second derivative [rad/cycle²].
     pub curvature: SpeedLaw,
-    /// How much of a change of step height applies to this knot, 0 to 1.
+    /// Share of a change of step height that applies to this knot, 0 to 1.
     pub height_share: f64,
 }
 

@@ -73,7 +73,7 @@ impl Pace {
 /// A walking speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// In m/s.
+    /// Speed in m/s.
     MetersPerSecond(f64),
     /// V/√(gL).
     Dimensionless(f64),

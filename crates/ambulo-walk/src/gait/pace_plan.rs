@@ -317,7 +317,7 @@ impl Ramp {
         Jet::new(self.phases[0] + self.turned(law, since_s), rate.value, rate.rate)
     }
 
-    /// How much of the change the angles have taken at a phase.
+    /// Share of the change that the angles have taken at a phase.
     fn share_of_angles(&self, phase: Jet) -> Jet {
         let total: f64 = self.windows.iter().map(|[from, to]| to - from).sum();
         let parts =

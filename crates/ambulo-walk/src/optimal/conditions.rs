@@ -30,14 +30,14 @@ pub struct WalkConditions {
 pub struct Load {
     /// Mass [kg].
     pub mass: f64,
-    /// Where it is carried.
+    /// Place at which the load is carried.
     pub place: LoadPlace,
 }
 
 /// Where a load is carried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadPlace {
-    /// In a backpack: behind the mass centre of trunk and head.
+    /// A backpack: behind the mass centre of trunk and head.
     Back,
     /// Half in each hand.
     Hands,

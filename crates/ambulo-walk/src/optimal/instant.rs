@@ -50,7 +50,7 @@ impl ContactValues {
 /// Forces of one instant, and their derivatives.
 #[derive(Debug, Clone, Default)]
 pub struct Instant {
-    /// Of all coordinates.
+    /// Values, rates and accelerations of all coordinates.
     pub posture: Posture,
     /// Generalised forces [N.m or N].
     pub forces: Vec<f64>,

@@ -207,7 +207,7 @@ impl MovementProblem {
 pub enum MovementError {
     /// Keys without a beginning and an end.
     Keys {
-        /// How many keys there are.
+        /// Number of keys found.
         count: usize,
     },
     /// The first key that does not follow the one before, or does not begin at 0.

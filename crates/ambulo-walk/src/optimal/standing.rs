@@ -61,9 +61,9 @@ const START: Outline = Outline { duration: 0.9, joins: 0.42, swing: [0.68, 0.9],
 /// A stop and a start.
 #[derive(Debug, Clone)]
 pub struct StandingMovements {
-    /// From the walk to standing.
+    /// Movement from the walk to standing.
     pub stop: Solution,
-    /// From the posture in which the stop ends to the walk.
+    /// Movement from the posture in which the stop ends to the walk.
     pub start: Solution,
 }
 

@@ -31,7 +31,7 @@ struct Relative {
     angular: Vec3,
     /// Velocity of the origin of C.
     at_joint: Vec3,
-    /// From the origin of C to the child's mass centre.
+    /// Vector from the origin of C to the child's mass centre.
     to_center: Vec3,
 }
 

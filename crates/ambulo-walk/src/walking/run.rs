@@ -35,7 +35,7 @@ pub struct WatchedTargets<'a> {
 
 /// A figure whose pelvis is lower than this share of its height at the release has fallen.
 const FALLEN: f64 = 0.75;
-/// So has one whose trunk is turned by more than this [rad].
+/// Tilt of the trunk beyond which a figure has fallen [rad].
 const FALLEN_TILT: f64 = std::f64::consts::FRAC_PI_3;
 /// Duration of the recording after a fall [s].
 const AFTER_FALL_S: f64 = 0.1;

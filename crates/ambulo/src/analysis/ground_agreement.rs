@@ -214,7 +214,7 @@ fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
 /// A whole stance of a foot on a separate plate, predicted and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedStance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// From foot strike to foot off [s].
     pub span_s: [f64; 2],

@@ -60,7 +60,7 @@ pub struct TimesAndDistances {
 /// One stride of a foot: strike, foot off, next strike. Shares refer to the cycle, from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stride {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// First strike [s].
     pub start_s: f64,
@@ -74,7 +74,7 @@ pub struct Stride {
     pub initial_double_support: Option<f64>,
     /// Share from foot strike of the other foot to foot off, if known.
     pub terminal_double_support: Option<f64>,
-    /// From foot strike of the other foot to the end of the stride [s].
+    /// Time from foot strike of the other foot to the end of the stride [s].
     pub step_time_s: Option<f64>,
     /// Displacement of the heel over the floor [m], if the soles are known.
     pub stride_length_m: Option<f64>,
@@ -294,9 +294,9 @@ fn only(times: &[f64], [from, to]: [f64; 2]) -> Option<f64> {
 /// A foot strike with the position of the heel relative to the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
-    /// When [s].
+    /// Time of the strike [s].
     pub time_s: f64,
     /// Position of the heel relative to the floor [m].
     pub heel: Vec3,
@@ -352,7 +352,7 @@ impl PelvisPath {
         Some(PelvisPath { grid, places })
     }
 
-    /// From one instant to another [m].
+    /// Displacement from one instant to another [m].
     pub(super) fn between(&self, [from, to]: [f64; 2]) -> Option<Vec3> {
         Some(at(self.grid, &self.places, to)? - at(self.grid, &self.places, from)?)
     }
@@ -378,7 +378,7 @@ impl PelvisPath {
 pub struct Places {
     /// The floor under the feet.
     pub floor: Floor,
-    /// In order of time.
+    /// Strikes in order of time.
     pub strikes: Vec<Strike>,
 }
 

@@ -233,7 +233,7 @@ pub(crate) struct TotalLoad {
 }
 
 impl TotalLoad {
-    /// Of the recordings around a trajectory; `None` if one of them cannot be used.
+    /// The total of the recordings around a trajectory; `None` if one of them cannot be used.
     pub(crate) fn new(
         model: &Model,
         trajectory: &Trajectory,

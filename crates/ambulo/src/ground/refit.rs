@@ -31,12 +31,12 @@ use crate::numerics::BandMatrix;
 use crate::spatial::{Pose, Vec3};
 use std::f64::consts::TAU;
 
-/// How still a loaded point of a sole is [m].
+/// Standard deviation of the place of a loaded point of a sole [m].
 const STILL_M: f64 = 0.005;
 /// Usual error of a fitted angle [rad] and of a displacement [m].
 const TURN: f64 = 0.035;
 const SHIFT_M: f64 = 0.01;
-/// How fast errors of fitted coordinates change [rad/s]: once a second.
+/// Rate at which errors of fitted coordinates change [rad/s]: once a second.
 const CHANGING: f64 = TAU;
 /// A point rests up to the first height above its lowest place in the stance, and not at all above the second [m].
 const RESTING_M: [f64; 2] = [0.010, 0.025];

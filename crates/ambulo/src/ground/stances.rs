@@ -40,7 +40,7 @@ const SHORTEST_WINDOW_S: f64 = 0.05;
 /// A stance of one foot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Foot strike, or the first instant of a motion that begins during the stance [s].
     pub start_s: f64,

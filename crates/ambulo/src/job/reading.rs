@@ -20,7 +20,7 @@ pub struct ReadJob {
     pub job: Job,
     /// The recording.
     pub source: Source,
-    /// How it is processed.
+    /// How the recording is processed.
     pub settings: Settings,
     /// Every file that was read, in this order.
     pub files: Vec<PathBuf>,

@@ -170,7 +170,7 @@ impl FromStr for FootColumns {
 pub struct PlateFoot {
     /// The plate, counted from 1.
     pub plate: usize,
-    /// In the order in which they are applied.
+    /// Statements in the order in which they are applied.
     pub(super) uses: Vec<PlateUse>,
 }
 

@@ -76,7 +76,7 @@ pub enum StudyError {
     NoSuchPlate {
         /// The plate, counted from 0.
         plate: usize,
-        /// How many there are.
+        /// Number of force plates.
         count: usize,
     },
     /// Residual reduction that is not possible.

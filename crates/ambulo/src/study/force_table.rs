@@ -20,7 +20,7 @@ pub(super) struct TableForces {
     pub(super) forces: Vec<ForceRecording>,
     /// Loaded times without a foot [s].
     pub(super) unassigned: Vec<[f64; 2]>,
-    /// How long loads carried something, all together [s].
+    /// Total loaded time of all loads [s].
     pub(super) loaded_s: f64,
     /// Whether the table is in body weights, so that it does not weigh the person.
     pub(super) is_relative: bool,
@@ -35,7 +35,7 @@ pub(super) struct Walker<'a> {
     pub(super) window: Window,
     /// Rotation from the axes of the markers to world axes.
     pub(super) world_from_lab: Option<&'a Mat3>,
-    /// By how much the forces were recorded late [s].
+    /// Delay of the recorded forces [s].
     pub(super) delay_s: f64,
 }
 

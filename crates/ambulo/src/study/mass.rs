@@ -160,7 +160,7 @@ impl KnownMass {
         KnownMass { stated: kg.map(MassEstimate::stated), standing: None }
     }
 
-    /// Of a recording of markers: the user's statement has priority over the files.
+    /// Known masses of a recording of markers: the user's statement has priority over the files.
     pub(super) fn of_markers(markers: &MarkerSource) -> KnownMass {
         let MarkerSource { trial, standing, body, .. } = markers;
         let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
@@ -204,7 +204,7 @@ impl KnownMass {
 }
 
 impl BodyMass {
-    /// From all sources; `model_kg` is the mass that the forces are computed with.
+    /// The mass from all sources; `model_kg` is the mass that the forces are computed with.
     #[doc(hidden)] // for tests
     pub fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>, normalised_by: MassSource) -> BodyMass {
         let moving = combined(&motion);

@@ -60,7 +60,7 @@ pub enum SensorError {
     Heading {
         /// Flexion of the knees.
         found: String,
-        /// How much they must bend [deg].
+        /// Required bending [deg].
         expected_deg: f64,
     },
     /// Coordinates that the sensors do not determine.

@@ -61,11 +61,11 @@ pub struct SensorTrial<'a> {
 pub struct SensorAxes {
     /// Rotation from the earth axes of the sensors to world axes (y up).
     pub world_from_earth: Mat3,
-    /// How the direction forward is found.
+    /// Method that determines the forward direction.
     pub heading: SensorHeading,
 }
 
-/// How the direction in which the person faces is found.
+/// Method that determines the direction in which the person faces.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorHeading {
     /// The bending of the knees.

@@ -55,7 +55,7 @@ struct Held {
 struct Counts {
     frames: u64,
     results: u64,
-    /// Of each kind of notice.
+    /// Number of notices of each kind.
     notices: Vec<(&'static str, u64)>,
     /// Why the first message was refused.
     first_refusal: Option<String>,

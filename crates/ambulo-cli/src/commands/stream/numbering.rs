@@ -1,6 +1,6 @@
 //! Order of frames by their numbers: missing, repeated and late frames, and new sequences.
 
-/// How many of the last numbers are remembered, to distinguish a repeated frame from a late one.
+/// Number of last frames that are remembered, to distinguish a repeated frame from a late one.
 const REMEMBERED: u64 = 64;
 
 /// Place of a frame in its sequence.
@@ -23,7 +23,7 @@ pub enum Place {
 pub struct Numbering {
     /// The greatest received number; `None` before the first frame.
     last: Option<u64>,
-    /// Which of the [`REMEMBERED`] numbers up to the last one came, the last one in the lowest bit.
+    /// Received numbers among the [`REMEMBERED`] ones up to the last, one bit each; the last number in the lowest bit.
     came: u64,
 }
 

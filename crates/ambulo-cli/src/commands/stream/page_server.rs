@@ -123,7 +123,7 @@ impl PageServer {
         }
     }
 
-    /// How many events wait for a browser.
+    /// Number of events that wait for a browser.
     #[must_use]
     pub fn waiting(&self) -> usize {
         self.waiting.load(Ordering::Relaxed)

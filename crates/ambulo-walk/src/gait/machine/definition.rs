@@ -182,7 +182,7 @@ pub struct Machine {
     pub(super) gate: Option<Gate>,
 }
 
-/// When a machine runs. While it does not, it is in its first state.
+/// Condition for a machine to run. While it does not run, it is in its first state.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Gate {
     /// Another machine and its state; `None` for a machine that runs from the time at which machines begin.

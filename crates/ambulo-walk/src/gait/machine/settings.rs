@@ -121,7 +121,7 @@ pub(crate) struct TransitionSettings {
     pub from: usize,
     /// Index of the state that is entered.
     pub to: usize,
-    /// When it is taken.
+    /// Condition for the transition.
     pub when: Condition,
     /// Duration of the passage from the old activity to the new one [s]. Angle, rate and acceleration are continuous.
     pub within_s: f64,

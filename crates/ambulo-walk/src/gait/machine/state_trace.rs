@@ -16,7 +16,7 @@ pub struct StatePeriod {
 /// A change of a machine from one state to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateChange {
-    /// When [s].
+    /// Time of the change [s].
     pub time_s: f64,
     /// Name of the machine.
     pub machine: String,

@@ -15,9 +15,9 @@ const CHANGES: [f64; 3] = [1e-6, 1e-5, 1e-3];
 
 /// Factors of the derivatives of quantities in b: their residuals over their deviations.
 struct Pull<'a> {
-    /// Per force.
+    /// Factors, one per force.
     forces: Vec<f64>,
-    /// Of other quantities that are not linear.
+    /// Factors of other quantities that are not linear.
     others: Vec<(&'a Quantity, f64)>,
 }
 

@@ -56,7 +56,7 @@ const SHORTEST: usize = 8;
 pub struct FootGuide {
     /// The sole.
     pub sole: Sole,
-    /// From foot strike to foot off [s].
+    /// Foot strike and foot off of the stances [s].
     pub stances_s: Vec<[f64; 2]>,
     /// Height of the floor in each stance [m].
     pub floors_m: Vec<f64>,
@@ -174,7 +174,7 @@ pub enum TrackError {
     UnevenFloor {
         /// Difference.
         what: &'static str,
-        /// By how much.
+        /// Difference found.
         found: f64,
         /// The most that is supported.
         most: f64,
@@ -188,7 +188,7 @@ pub enum TrackError {
         1e3 * distance_m, 80.0
     )]
     SoleOffFloor {
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
         /// The sphere under it.
         sphere: String,
@@ -220,7 +220,7 @@ pub enum TrackError {
 /// The ground force on one foot, one entry per frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackedFoot {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Force [N].
     pub force: Vec<Vec3>,

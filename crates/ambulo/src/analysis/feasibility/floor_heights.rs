@@ -15,7 +15,7 @@ use crate::spatial::Vec3;
 
 /// Heights of the ground over time [m].
 pub(super) struct FloorHeights {
-    /// Of the loads.
+    /// Usual height of the loads [m].
     usual: f64,
     /// Stances with their heights, in order of time.
     stances: BySide<Vec<([f64; 2], f64)>>,

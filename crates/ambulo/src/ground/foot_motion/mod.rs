@@ -31,7 +31,7 @@ use agreement::agreed;
 use methods::events_of;
 use signals::{Foot, floor_speed, foot, mean_path, mean_rate};
 
-/// Below this speed the person is standing [m/s].
+/// Speed below which the person is standing [m/s].
 const SLOWEST_WALK_M_S: f64 = 0.15;
 
 /// A method that detects foot strikes and foot offs in marker trajectories.

@@ -16,7 +16,7 @@ const CARRIED: f64 = 0.5;
 const LEVEL: f64 = 0.05;
 /// Radius of a cluster of velocities, as a share of √(g L).
 const TOGETHER: f64 = 0.1;
-/// Below this share of √(g L), 0.09 m/s for an adult, the floor is at rest: stance feet appear to creep by 0.03 m/s.
+/// Speed at which the floor is at rest, as a share of √(g L) (0.09 m/s for an adult): stance feet creep by 0.03 m/s.
 const RESTS: f64 = 0.03;
 /// A belt whose speed changes by less than this share of √(g L) has a constant speed.
 const EVEN: f64 = 0.05;

@@ -76,7 +76,7 @@ use std::ops::Range;
 /// One stance of one foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footfall {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Foot strike [s]; `None` if the foot was on the ground when the recording began.
     pub strike_s: Option<f64>,
@@ -91,7 +91,7 @@ pub struct Footfall {
 /// The stances of both feet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footfalls {
-    /// In order of time.
+    /// Footfalls in order of time.
     pub falls: Vec<Footfall>,
     /// Velocity of the floor over the whole recording [m/s]; exactly zero if it does not move.
     pub floor_velocity: Vec3,

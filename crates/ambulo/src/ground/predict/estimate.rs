@@ -36,7 +36,7 @@ use super::unknowns::Unknowns;
 use crate::model::BySide;
 use std::ops::Range;
 
-/// Of a stance in progress at most this long is evaluated before the wanted frames, in √(L/g): most of two steps.
+/// Longest part of a stance in progress that is evaluated before the wanted frames, in √(L/g): most of two steps.
 const LONGEST_PAST: f64 = 4.0;
 
 /// The part of a motion on which the wanted frames depend.

@@ -34,9 +34,9 @@ const HIGHEST: f64 = 3.0;
 /// The filters of both sides of the equations.
 #[derive(Debug, Clone)]
 pub(super) struct EvidenceFilters {
-    /// Of the force that the motion requires, and of most estimated forces.
+    /// Filter of the force that the motion requires, and of most estimated forces.
     pub(super) gaussian: EvidenceFilter,
-    /// Of the vertical force in running; `None` without running, or if the motion was not filtered.
+    /// Filter of the vertical force in running; `None` without running, or if the motion was not filtered.
     running: Option<EvidenceFilter>,
 }
 

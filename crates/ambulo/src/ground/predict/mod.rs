@@ -81,13 +81,13 @@ pub struct Prediction {
 /// Standard deviations of the prediction for one foot, one entry per frame; zero in swing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootDeviation {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
-    /// Of the force [N].
+    /// Standard deviation of the force [N].
     pub force: Vec<Vec3>,
-    /// Of the centre of pressure [m].
+    /// Standard deviation of the centre of pressure [m].
     pub center: Vec<Vec3>,
-    /// Of the free moment [N.m].
+    /// Standard deviation of the free moment [N.m].
     pub free_moment: Vec<f64>,
 }
 
@@ -157,7 +157,7 @@ pub enum PredictError {
     NoSole {
         /// Name of the model.
         model: String,
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
     },
     /// A model without mass.
@@ -216,7 +216,7 @@ pub enum PredictError {
          expected stances in order of time"
     )]
     Footfalls {
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
         /// Foot strike or foot off of the stance [s].
         time_s: f64,

@@ -54,9 +54,9 @@ pub struct OtherPerson {
     pub what: &'static str,
     /// Its unit.
     pub unit: &'static str,
-    /// Of the person in the motion.
+    /// Value of the person in the motion.
     pub found: f64,
-    /// Of the calibrated person.
+    /// Value of the calibrated person.
     pub expected: f64,
 }
 

@@ -173,7 +173,7 @@ impl StanceErrors {
 /// Mean errors of the estimate in walking, which depend on the descent of the mass centre at the strike.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorsByDescent {
-    /// In a usual strike.
+    /// Mean errors in a usual strike.
     pub usual: StanceErrors,
     /// Change of the force forward and up for each unit of the descent (`strike_descents`) [body weights].
     pub by_descent: [StanceCurve; 2],

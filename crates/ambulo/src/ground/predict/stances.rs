@@ -17,7 +17,7 @@ const USUAL_STANCE: f64 = 2.1;
 const LONGEST_STEP: f64 = 6.0;
 /// Steps of stairs differ by more than this [m]: half the rise of a usual step, as in docs/JUDGEMENT.md.
 const LEAST_RISE_M: f64 = 0.08;
-/// Below this share of √(g L) the body stands still.
+/// Speed below which the body stands still, as a share of √(g L).
 const UNDER_WAY: f64 = 0.08;
 
 /// Type of gait of a stance.
@@ -34,7 +34,7 @@ pub enum GaitType {
 /// One stance with its axes, speed and phase.
 #[derive(Debug, Clone)]
 pub struct Stance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Strike [s]; estimated where the recording cuts the stance.
     pub start_s: f64,
@@ -48,14 +48,14 @@ pub struct Stance {
     pub right: Vec3,
     /// Dimensionless speed V / √(g L).
     pub speed: f64,
-    /// Of what the stance is a part.
+    /// Gait of which the stance is a part.
     pub gait: GaitType,
     /// Time until which only the forefoot is on the ground after a forefoot strike; `None` after a strike with
     /// the heel [s].
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
     pub on_stairs: bool,
-    /// How much more than usual the mass centre descends at the strike (`strike_descent`).
+    /// Descent of the mass centre at the strike, relative to a usual strike (`strike_descent`).
     pub descent: f64,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     pub knots: Vec<[f64; 2]>,

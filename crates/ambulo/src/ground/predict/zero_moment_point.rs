@@ -15,7 +15,7 @@ use super::geometry::FootPlace;
 use crate::model::BySide;
 use crate::spatial::{Vec3, Wrench};
 
-/// Below this share of the body weight the feet carry too little for their moment to show where [body weights].
+/// Load below which the moment of the feet does not show the place of the load [body weights].
 const LEAST_LOAD: f64 = 0.2;
 /// The two equations are solved in turn; each turn at least halves the error where the feet point in similar
 /// directions.

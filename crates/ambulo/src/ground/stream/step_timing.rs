@@ -18,7 +18,7 @@ use crate::model::Side;
 use crate::motion::TimeGrid;
 use crate::numerics::median;
 
-/// In walking the other foot's strike is later than this share of a stance.
+/// Earliest strike of the other foot in walking, as a share of a stance.
 const TAKES_OVER_AFTER: f64 = 0.5;
 
 /// Usual times of a person's steps [s]; `None` until they were observed.

@@ -68,9 +68,9 @@ pub enum Tail {
 pub struct FrameRange {
     /// Number of the first one.
     pub first: usize,
-    /// From one to the next, in frames of the stream.
+    /// Step from one frame to the next, in frames of the stream.
     pub stride: usize,
-    /// How many there are.
+    /// Number of frames.
     pub count: usize,
 }
 

@@ -43,7 +43,7 @@ const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
 pub struct PlannedTrial {
     /// Path of the recording from the folder of all trials.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The kind that the laboratory states.
     pub kind: Option<String>,

@@ -20,7 +20,7 @@ pub struct CurveStatistics {
 }
 
 impl CurveStatistics {
-    /// Of at least one curve; `None` without any, or of curves of different lengths.
+    /// Statistics of at least one curve; `None` without any, or of curves of different lengths.
     #[must_use]
     pub fn of(curves: &[&[f64]]) -> Option<CurveStatistics> {
         let length = curves.first()?.len();

@@ -150,7 +150,7 @@ pub struct Deviation {
     pub largest: f64,
     /// Largest deviation in standard deviations.
     pub largest_sd: f64,
-    /// Where that is [% of the cycle].
+    /// Place of the largest difference [% of the cycle].
     pub at_percent: f64,
     /// Share of the cycle more than two standard deviations away, from 0 to 1.
     pub outside: f64,

@@ -28,7 +28,7 @@ pub struct TrialKind {
 pub struct JudgedTrial {
     /// Name of the trial in tables.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The words of its [`TrialKind`], or of the caller's own kinds.
     pub kind: String,
