@@ -121,7 +121,7 @@ pub struct MassEstimate {
     pub by: MassWitness,
     /// The mass [kg].
     pub kg: f64,
-    /// Standard error of the mass [kg].
+    /// Its standard error [kg].
     pub error_kg: f64,
     /// How many times it was weighed.
     pub times: usize,

@@ -93,7 +93,7 @@ fn off(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
 
-/// Body weight: the median of [`weight_of`] over the whole steps in a vertical force, in the unit of the force; `None`
+/// Body weight: the median over the whole steps in a vertical force, in the unit of the force; `None`
 /// without a whole step, as in noise.
 #[must_use]
 pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
