@@ -131,6 +131,9 @@ const MISUSED: u8 = 2;
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "help and errors of the automation go to the terminal")]
 fn main() -> ExitCode {
+    if let Some(code) = check::in_place_of_compiler() {
+        return code;
+    }
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {

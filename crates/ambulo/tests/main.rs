@@ -45,7 +45,6 @@ mod constraint_graph;
 mod contact_convergence;
 mod contact_geometry;
 mod conventions;
-mod elimination;
 mod feasibility;
 mod feasibility_motions;
 mod feet_on_plates;
