@@ -45,7 +45,7 @@ pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: 
     answered(py, ForcesRequest { job, convention, keep, ..ForcesRequest::default() }, Existing::Kept, &files)
 }
 
-/// The calibration of a person: the content of the file of `ambulo calibrate`. The options hold for every trial.
+/// The calibration of a person: the content of the file of `ambulo calibrate`. The options are those of every trial.
 #[pyfunction]
 pub(crate) fn calibrate<'py>(
     py: Python<'py>,

@@ -8,7 +8,7 @@
 //! | ground    | body weights | `ground_force_vertical_r`  |
 //!
 //! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
-//! [`clinical_angles`]; all other numbers come from the files with OpenSim signs, times a constant.
+//! [`clinical_angles`]; all other numbers are those of the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;

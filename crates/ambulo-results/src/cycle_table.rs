@@ -27,7 +27,7 @@ pub struct CycleRow {
 }
 
 /// Angle, moment and power of every coordinate, and the ground forces, over every cycle. Coordinates of a leg are cut
-/// into the cycles of that leg; coordinates of pelvis and trunk into the cycles of both.
+/// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
     analysis.cycles.iter().flat_map(|cycle| rows_of(model, analysis, cycle)).collect()

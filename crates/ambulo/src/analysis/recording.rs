@@ -96,7 +96,7 @@ impl Analysis {
         JointPowers::new(model, &self.trajectory, &self.forces.generalized)
     }
 
-    /// The reactions in all joints; [`Analysis::forces`] has only the reactions of joints to ground.
+    /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.
     #[must_use]
     pub fn reactions(&self, model: &Model) -> ReactionReader<'_> {
         ReactionReader::new(model, &self.trajectory, self.ground.loads())

@@ -2,7 +2,7 @@
 //! foot stands on them.
 //!
 //! They come from another trial or from other plates, or the plates were switched off. The ground forces are then
-//! predicted from the motion if none are left, but no motion is judged feasible with them.
+//! predicted from the motion where none are left, but nothing is called feasible on them.
 //! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 
 use super::force_table::TableForces;

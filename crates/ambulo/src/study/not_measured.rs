@@ -5,7 +5,7 @@
 //! | held: one value in every frame | no marker, sensor or column determines it; an anatomical angle of a moving person is never constant |
 //! | on its limit in more than a tenth of the frames | the fit stops there, whatever the recording shows: a marker is misplaced, or the joint was folded the wrong way |
 //!
-//! Ranges hold for joints without load ([`crate::model::anthropometry`]); no walk reaches them for a tenth of the
+//! Ranges are those of joints without load ([`crate::model::anthropometry`]), which no walk reaches for a tenth of the
 //! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
 //! none of them.
 
@@ -27,7 +27,7 @@ struct NotMeasured {
 }
 
 /// Finds and reports the coordinates of a motion, fitted to a recording, that are not measured.
-/// Each comes with a flag: whether it is held.
+/// Each comes with whether it is held.
 pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     let asked = || model.coordinate_ids().filter(|id| is_asked(model, *id));
     let found: Vec<NotMeasured> = asked().filter_map(|id| of_coordinate(model, motion, id)).collect();

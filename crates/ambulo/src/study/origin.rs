@@ -40,7 +40,7 @@ pub enum Tracking {
         statement: String,
         /// How well the body follows.
         fit: Box<MarkerFit>,
-        /// Downward acceleration in flight, at the stated frame rate; `None` without a flight.
+        /// How the person falls in flight, at the stated frame rate; `None` without a flight.
         flights: Option<FlightGravity>,
     },
 }

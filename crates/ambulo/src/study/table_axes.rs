@@ -1,9 +1,9 @@
-//! Axes and units of a table of ground forces, recognised by the body weight.
+//! Axes and units of a table of ground forces, recognised by what the body weighs.
 //!
-//! The mean force of the ground points up, because it carries the weight and accelerates the body only briefly: an axis
-//! with nine tenths of it is the vertical. If that is not y, the table has other axes; the direction about the vertical
-//! is the one with which the centres of pressure lie under the feet. The unit follows from the weight of a step
-//! ([`ForceUnit::of_steps`]), the unit of the moments from their lever: a foot is shorter than half a metre.
+//! The mean force of the ground points up, because it carries the weight and accelerates nobody for long: an axis with
+//! nine tenths of it is the vertical. If that is not y, the table has other axes; the direction about the vertical is
+//! the one with which the centres of pressure lie under the feet. The unit follows from the weight of a step
+//! ([`ForceUnit::of_steps`]), that of the moments from their lever: a foot is shorter than half a metre.
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::findings::{Code, Findings};

@@ -1,10 +1,10 @@
 //! Recognises the unit of measured forces by what a step weighs.
 //!
-//! A step has the same shape in every unit: the vertical force rises steeply from zero, stays high and falls to zero.
-//! Over a step of duration t the mean force is m g (T / t), with the time T from one step to the next, because the mean
-//! over all steps is the weight (Newton). Walking has t = 1.2 T (a stance of 60 % of the stride); running has 2.8 steps
-//! a second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish
-//! newtons, kilonewtons and body weights.
+//! A step looks the same in every unit: the vertical force rises steeply from nothing, stays up and falls back. Over a
+//! step of duration t the mean force is m g (T / t), with the time T from one step to the next, because the mean over
+//! all steps is the weight (Newton). Walking has t = 1.2 T (a stance of 60 % of the stride); running has 2.8 steps a
+//! second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish newtons,
+//! kilonewtons and body weights.
 //!
 //! Pinned by: tests/motion_body_weight.rs
 
@@ -31,7 +31,7 @@ const WALK_STANCE: f64 = 1.2;
 const RUN_STEP_S: f64 = 0.36;
 const RUN_STANCE_S: f64 = 0.4;
 
-/// Units in which files have ground forces although they state newtons, or nothing.
+/// Units in which forces of people are found although files state newtons, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceUnit {
     /// Thousands of newtons.
@@ -43,8 +43,8 @@ pub enum ForceUnit {
 }
 
 impl ForceUnit {
-    /// The unit in which this is a step of a person, if it is no plausible step in newtons. `stepped` is
-    /// [`stepped_weight`] in the unit of the file, `weight_n` the weight of the person, if it is known [N].
+    /// The unit in which this is a step of a person, if it is none in newtons. `stepped` is [`stepped_weight`] in the
+    /// unit of the file, `weight_n` the weight of the person, if it is known [N].
     #[must_use]
     pub fn of_steps(stepped: f64, weight_n: Option<f64>) -> Option<ForceUnit> {
         let is_person = match weight_n {
@@ -93,8 +93,7 @@ fn off(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
 
-/// Body weight: the median over the whole steps in a vertical force, in the unit of the force; `None`
-/// without a whole step, as in noise.
+/// What the whole steps in a vertical force weigh, in the unit of the force; `None` without a whole step, as in noise.
 #[must_use]
 pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
@@ -112,7 +111,7 @@ pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     (2 * weights.len() >= loaded.len()).then(|| median(weights)).flatten()
 }
 
-/// Body weight from one step: mean force times stance time over step time; `None` if the load is no step.
+/// What one step weighs; `None` if it is none.
 fn weight_of(run: &[usize], times: &[f64], load: &[f64]) -> Option<f64> {
     let (first, last) = (*run.first()?, *run.last()?);
     let stance_s = times[last] - times[first];

@@ -48,8 +48,8 @@ const LEAST_SPEED: f64 = 0.15;
 /// From one stance of a foot to its next one it moves further than this share of the leg length in a walk: two steps of
 /// 0.15 L, 0.13 m of an adult. Feet that only lose and take load do not move.
 const LEAST_STRIDE: f64 = 0.3;
-/// Slower than this share of √(g L), 0.9 m/s for an adult, a motion is no run: jogging starts at 1.5 m/s. Leaps and
-/// landings are slower.
+/// Slower than this share of √(g L), 0.9 m/s for an adult, nobody runs: people jog from 1.5 m/s on. Leaps and landings
+/// are slower.
 const SLOWEST_RUN: f64 = 0.3;
 /// Transition from walking to running, as a share of √(g L): Froude number one half (Alexander 1989).
 const RUNNING_SPEED: f64 = 0.7;

@@ -52,8 +52,8 @@ struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
     distance: f64,
     count: f64,
-    /// Sums of the products of measured horizontal forces with horizontal forces of the lever rule, along the foot and
-    /// across it, and of the squares of both.
+    /// Sums of the products of horizontal forces with those of the lever rule along the foot and across it, and of the
+    /// squares of both.
     products: [f64; 2],
     squares: [[f64; 2]; 2],
 }
