@@ -1,14 +1,14 @@
 //! Times and distances of walking for every stride: speed, cadence, step and stride length, step width, stance, swing
 //! and support.
 //!
-//! | quantity              | definition                                                                                        |
-//! |-----------------------|---------------------------------------------------------------------------------------------------|
-//! | cycle time            | foot strike to next foot strike of the same foot, with one foot off in between                     |
-//! | stance, swing         | foot strike to foot off, foot off to foot strike, as shares of the cycle                           |
-//! | single support        | foot off to foot strike of the other foot within the stance                                        |
+//! | quantity              | definition |
+//! |-----------------------|---|
+//! | cycle time            | foot strike to next foot strike of the same foot, with one foot off in between |
+//! | stance, swing         | foot strike to foot off, foot off to foot strike, as shares of the cycle |
+//! | single support        | foot off to foot strike of the other foot within the stance |
 //! | double support        | initial: foot strike to foot off of the other foot; terminal: foot strike of the other foot to foot off |
-//! | step time             | foot strike of the other foot to the foot strike that ends the stride                              |
-//! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike             |
+//! | step time             | foot strike of the other foot to the foot strike that ends the stride |
+//! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike |
 //! | step length and width | from the other heel at its strike to this heel at its strike, along and across the walking direction |
 //!
 //! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking

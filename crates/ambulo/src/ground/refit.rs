@@ -6,14 +6,14 @@
 //!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p²
 //!                           + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
 //!
-//! | code       | symbol | unit     | meaning                                                                                    |
-//! | `points`   | p      | m        | rear, ball and tip of a sole; h takes the horizontal part                                  |
-//! | `weight`   | w      | 1        | 1 while the point rests on the floor: inside the stance and as low as it gets there        |
-//! | `velocity` | v      | m/s      | velocity of the floor, as the belt of a treadmill                                          |
-//! | `place`    | p̄     | m        | mean of p - v t over the stance, weighted by w                                             |
+//! | code       | symbol | unit     | meaning |
+//! | `points`   | p      | m        | rear, ball and tip of a sole; h takes the horizontal part |
+//! | `weight`   | w      | 1        | 1 while the point rests on the floor: in stance and near its lowest place |
+//! | `velocity` | v      | m/s      | velocity of the floor, as the belt of a treadmill |
+//! | `place`    | p̄     | m        | mean of p - v t over the stance, weighted by w |
 //! | `STILL_M`  | σ_p    | m        | how still a point that rests is: skin and shoe give way, the rigid foot of a model does not |
-//! | `TURN`, `SHIFT_M` | σ_i | rad, m | usual error of a fitted angle, of a displacement                                         |
-//! | `CHANGING` | ω      | rad/s    | how fast these errors change: a faster change would itself be a force                      |
+//! | `TURN`, `SHIFT_M` | σ_i | rad, m | usual error of a fitted angle, of a displacement |
+//! | `CHANGING` | ω      | rad/s    | how fast these errors change: a faster change would itself be a force |
 //!
 //! Heights are not changed. In animation the same task is called the clean-up of sliding feet.
 //!
