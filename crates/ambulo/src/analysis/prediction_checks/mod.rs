@@ -15,10 +15,11 @@
 //! | `friction`              | horizontal over vertical force of a foot in stance for 0.03 s            | 0.6 |
 //! | `held_without_feet`     | vertical force needed for 0.1 s while no foot is in stance [BW]          | 0.2 |
 //! | `pull`                  | smallest vertical force needed for 0.1 s [BW]                            | above -0.15 |
-//! | `mass`                  | body mass by plates or a standing trial over the model's                 | 1 ± 0.05, more without a whole cycle |
+//! | `mass`                  | body mass by plates or a standing trial over the model's                 | 1 ± 0.05 |
 //!
 //! An offset of the model's mass centre is not subtracted; the tolerances include it. From the motion alone every force
-//! scales with the mass, so only the last check detects a wrong mass.
+//! scales with the mass, so only the last check detects a wrong mass; its limit is wider if plates measured less than a
+//! cycle.
 //! [`Thresholds`] has the limits of friction and of the centre of pressure.
 //! Cost: linear in frames, about 300 bytes per frame of memory.
 //! Not handled: support that moves along with the person; equal external loads on both sides.
