@@ -1,4 +1,4 @@
-//! The road from a recording to forces.
+//! Runs a study: from a recording to forces.
 
 use super::error::StudyError;
 use super::force_directions::ForceDirections;

@@ -1,4 +1,4 @@
-//! How sensors sit on their bodies, and where forward is.
+//! Calibration of sensors: their orientation on their bodies, and the forward direction.
 
 use super::{PlacedSensor, SensorAxes, SensorError, SensorHeading, SensorTrial};
 use crate::findings::{Code, Findings};
