@@ -1,4 +1,4 @@
-//! Motion and forces at one instant: what a row of a table of a scene has.
+//! Motion and forces at one instant: the content of a row in the tables of a scene.
 //!
 //! The instant t is the start of a step of h. Steps of impulses keep velocities of the middle of steps, and their
 //! multipliers λ/h balance
