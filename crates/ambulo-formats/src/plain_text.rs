@@ -5,6 +5,7 @@
 //! lines of the text keep their numbers.
 
 use crate::error::Remark;
+use memchr::memchr2;
 use std::borrow::Cow;
 
 /// Bytes of a table in which its separators are looked for.
@@ -113,7 +114,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text).filter(|text| !text.is_empty());
     std::iter::from_fn(move || {
         let text = rest?;
-        let end = text.find(['\n', '\r']).unwrap_or(text.len());
+        let end = memchr2(b'\n', b'\r', text.as_bytes()).unwrap_or(text.len());
         let (line, after) = text.split_at(end);
         let after = after.strip_prefix("\r\n").or_else(|| after.get(1..)).unwrap_or_default();
         rest = Some(after).filter(|after| !after.is_empty());

@@ -195,6 +195,7 @@ impl SteadyCurve {
     }
 
     /// [`CyclicCurve::at`].
+    #[inline]
     pub fn at(&self, phase: Jet, speed: Jet) -> Jet {
         self.at_chosen(phase, speed, |segment| segment)
     }

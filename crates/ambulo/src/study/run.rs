@@ -96,7 +96,7 @@ fn road(
     let processing = processing(&observed, recorded.is_none(), settings, findings);
     let (observed, found, mass) = weighed(observed, motion, processing, settings, findings, progress)?;
     let Found { analysis, prediction, measured_events, loads, processing } = found;
-    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
+    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), loads.as_ref(), &processing, findings);
     let directions = ForceDirections::of(&observed, &analysis.trajectory);
     directions.report(findings);
     let Observation { model, person, origin, idle, .. } = observed;
@@ -284,6 +284,7 @@ fn plate_timing(
     observed: &Observation,
     analysis: &Analysis,
     prediction: Option<&PredictedGround>,
+    loads: Option<&StanceLoads>,
     processing: &analysis::AnalysisSettings,
     findings: &mut Findings,
 ) -> PlateTiming {
@@ -291,7 +292,9 @@ fn plate_timing(
         Some(predicted) => predicted.measured.as_ref(),
         None => Some(analysis).filter(|_| !matches!(observed.origin, Origin::Simulation { .. })),
     };
-    let found = measured.and_then(|measured| PlateTiming::of(observed, measured, processing)).unwrap_or_default();
+    let stances = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let timing = |measured| PlateTiming::of(observed, measured, stances, processing);
+    let found = measured.and_then(timing).unwrap_or_default();
     found.delay.iter().for_each(|delay| delay.report(findings));
     found.tempo.iter().for_each(|tempo| tempo.report(findings));
     found
