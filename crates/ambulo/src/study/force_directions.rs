@@ -101,7 +101,19 @@ impl ForceDirections {
         }
         let turned = sensors.iter().enumerate().filter_map(|(k, sensor)| Some((k, sensor.sums.turned_fault(&body)?)));
         let mut found: Vec<(usize, Fault)> = turned.collect();
+        for s in &sensors {
+            eprintln!(
+                "DBG dir {} r {:?} rms {:?} exp {:?} n {} steps {}",
+                s.name,
+                [0, 1].map(|a| s.sums.agreement(a)),
+                s.sums.lever.measured.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
+                s.sums.lever.expected.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
+                s.sums.frames,
+                s.sums.steps
+            );
+        }
         let flipped = body.flipped(&sensors, &found);
+        eprintln!("DBG flipped {flipped:?} newton {}", body.fits_newton(&sensors, &flipped));
         if body.fits_newton(&sensors, &flipped) {
             found.extend(flipped);
         }
