@@ -66,7 +66,8 @@ usage: cargo xtask <command>
                     [--evaluations N] [--seed N] [--pull X]
   keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
-  twins             judge recordings, and altered copies of them that no person could make  [--only NAME]
+  twins             judge recordings, and altered copies of them: faults of laboratories, motions that no person could make, plates
+                    that were taken away  [--only NAME] [--fault NAME] [--write: docs/measured/TWINS.md]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes

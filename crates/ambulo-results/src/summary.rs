@@ -228,6 +228,19 @@ impl Ground {
         let rest = if self.source == GroundOrigin::Mixed { "predicted" } else { "unknown" };
         is_incomplete.then(|| format!("measured in {}; {rest} in the rest", legs.join(" and ")))
     }
+
+    /// In words, the leg none of whose stances was measured, while the other leg was measured; `None` if there is none.
+    #[must_use]
+    pub fn unmeasured_leg(&self) -> Option<String> {
+        let MeasuredShare { right, left } = self.measured_share.as_ref()?;
+        let side = match (right, left) {
+            (Some(right), Some(left)) if *right > 0.0 && *left <= 0.0 => Side::Left,
+            (Some(right), Some(left)) if *left > 0.0 && *right <= 0.0 => Side::Right,
+            _ => return None,
+        };
+        let rest = if self.source == GroundOrigin::Mixed { "rest on predicted forces" } else { "are unknown" };
+        Some(format!("no stance of the {side} leg was measured: its moments, powers and reactions {rest}"))
+    }
 }
 
 /// Of the time in which each leg was loaded, the share in which its load was measured; `null` for a leg that was never

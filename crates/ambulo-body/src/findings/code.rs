@@ -574,6 +574,10 @@ codes! {
         "A loaded foot was not on a force plate, or only in part; moments, powers and reactions have predicted ground \
          forces there."
         "Nothing to do; `stances.csv` and the columns `ground_source` list these times.";
+    StancesLegUnmeasured "stances.leg_unmeasured" Warning
+        "A leg stood on force plates, but none of its stances was measured, while those of the other leg were: all its \
+         moments, powers and reactions rest on predicted forces."
+        "Do not use this leg as a measured one. Find out why its plate gave no load, or choose another trial.";
     StancesUnknown "stances.unknown" Warning
         "A loaded foot was not on a force plate, and its load cannot be predicted reliably."
         "Choose the time in which every loaded foot is on a plate; `stances.csv` lists the others.";

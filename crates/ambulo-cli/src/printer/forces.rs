@@ -38,7 +38,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         outline(summary)?
     }
     if let Some(quality) = &summary.quality {
-        print_quality(quality, print)?;
+        print_quality(quality, &summary.ground, print)?;
     }
     if let Some(verdict) = &summary.verdict {
         print_verdict(verdict, print)?;
@@ -172,10 +172,11 @@ fn details(summary: &Summary) -> Result<()> {
     summary.comparison.as_ref().map_or(Ok(()), comparison::print)
 }
 
-/// Prints whether the data are good, and the strongest reasons why not.
-fn print_quality(quality: &Quality, print: PrintArgs) -> Result<()> {
+/// Prints whether the data are good, and the strongest reasons why not; good data may be those of one leg only.
+fn print_quality(quality: &Quality, ground: &Ground, print: PrintArgs) -> Result<()> {
     let count = quality.reasons.len();
-    print_line(&format!("  quality   {}{}", quality.state.word(), counted_reasons(count)))?;
+    let but = ground.unmeasured_leg().filter(|_| count == 0).map_or_else(String::new, |leg| format!(", but {leg}"));
+    print_line(&format!("  quality   {}{}{but}", quality.state.word(), counted_reasons(count)))?;
     let shown = quality.reasons.iter().take(reasons_shown(count, print));
     shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.state.word(), reason.message)))
 }

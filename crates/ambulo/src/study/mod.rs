@@ -46,6 +46,7 @@ mod table_axes;
 mod timing;
 mod tracked;
 pub(crate) mod trial_list;
+mod unmeasured_leg;
 pub mod validation;
 mod weighing;
 

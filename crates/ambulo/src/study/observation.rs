@@ -1,8 +1,8 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
-use super::force_table::{TableForces, Walker};
-use super::idle_forces::{IdleForces, is_loaded};
+use super::force_table::{TableForces, Walker, is_loaded};
+use super::idle_forces::IdleForces;
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::origin::Tracking;

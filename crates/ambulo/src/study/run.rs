@@ -16,6 +16,7 @@ use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use super::timing::{PlateTiming, Tempo};
 use super::tracked::tracked;
+use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
 use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
 use crate::analysis::{
@@ -204,6 +205,9 @@ impl Computed {
         let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
         let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
         let verdict = self.directions.set_aside(verdict, &force_origin);
+        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
+        let unmeasured_leg = UnmeasuredLeg::of(&listed, &self.idle);
+        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
         let strides = times_and_distances(&body, &person.soles, &analysis);
         let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
         let evidence = QualityEvidence {
@@ -218,6 +222,7 @@ impl Computed {
             not_measured: &self.not_measured,
             model: &body,
             idle: &self.idle,
+            unmeasured_leg: unmeasured_leg.as_ref(),
             directions: &self.directions,
             heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
@@ -225,7 +230,7 @@ impl Computed {
             tempo: self.timing.tempo.or_else(by_gait),
         };
         Outcome {
-            stances: loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone()),
+            stances: listed,
             completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
             force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),

@@ -159,6 +159,9 @@ fn trace(
         role: Role::Main,
         values,
         sd: sd.map(|sd| scaled(sd, factor.abs(), block)),
+        predicted: side
+            .filter(|_| quantity.group != ClinicalGroup::Kinematics)
+            .map_or_else(Vec::new, |side| results.predicted_times(side)),
         origin: Some(origin),
     })
 }

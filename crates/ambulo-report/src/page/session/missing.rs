@@ -123,7 +123,9 @@ fn is_lost(results: &Results, side: Side) -> bool {
 
 fn leg(results: &Results, side: Side) -> String {
     let why = match results.source {
-        PageSource::Measured => "no foot strike on a force plate is followed by a known strike of the same foot",
+        PageSource::Measured | PageSource::Mixed => {
+            "no foot strike on a force plate is followed by a known strike of the same foot"
+        }
         _ => "fewer than two foot strikes were detected",
     };
     format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")

@@ -28,7 +28,7 @@ use super::block::Block;
 use super::contract::{DataQuality, PageMachine, PageQuality, Session};
 use super::view::{Viewed, view};
 use ambulo::study::{Quality, QualityState};
-use ambulo_results::{Folder, KINEMATICS, ResultsError, RunSummary};
+use ambulo_results::{Folder, Ground, KINEMATICS, ResultsError, RunSummary};
 use feasibility::Basis;
 use results::{AllRows, Results};
 use size::BodySize;
@@ -76,7 +76,7 @@ fn recording(
     }
     Ok(Session {
         name: header::recording_name(&results),
-        data: results.summary.quality.as_ref().map(data_quality),
+        data: results.summary.quality.as_ref().map(|quality| data_quality(quality, &results.summary.ground)),
         glance: Some(glance::glance(&results, &size, &shown)),
         header: header::header(&results, &size),
         source: results.source,
@@ -98,12 +98,14 @@ fn recording(
     })
 }
 
-/// The quality with its three strongest reasons.
-fn data_quality(quality: &Quality) -> DataQuality {
+/// The quality with its three strongest reasons; good data may be those of one leg only.
+fn data_quality(quality: &Quality, ground: &Ground) -> DataQuality {
     let state = match quality.state {
         QualityState::Good => PageQuality::Good,
         QualityState::Doubtful => PageQuality::Doubtful,
         QualityState::Bad => PageQuality::Bad,
     };
-    DataQuality { state, reasons: quality.reasons.iter().take(3).map(|reason| reason.message.clone()).collect() }
+    let one_leg = ground.unmeasured_leg().filter(|_| quality.reasons.is_empty());
+    let reasons = quality.reasons.iter().take(3).map(|reason| reason.message.clone());
+    DataQuality { state, reasons: reasons.chain(one_leg).collect() }
 }

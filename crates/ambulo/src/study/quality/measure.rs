@@ -21,6 +21,8 @@ pub enum Measure {
     MeasuredForces,
     /// Whether there is no time in which the measured forces can be compared with the motion.
     UncheckedForces,
+    /// Whether none of the stances of a leg that stood on plates was measured, while those of the other leg were.
+    UnmeasuredLeg,
     /// Share of the measured load that lies under no foot.
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
@@ -78,12 +80,13 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 27] = [
+    pub const ALL: [Measure; 28] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
         Measure::UncheckedForces,
+        Measure::UnmeasuredLeg,
         Measure::UnassignedForces,
         Measure::SilentPlates,
         Measure::ForceDirections,
@@ -117,7 +120,7 @@ impl Measure {
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
-            Measure::UncheckedForces => AtMost(0.0, 1.0),
+            Measure::UncheckedForces | Measure::UnmeasuredLeg => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
             Measure::ForceDirections => AtLeast(0.6, 0.5),
@@ -160,6 +163,10 @@ impl Measure {
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
+            Measure::UnmeasuredLeg => {
+                "1 if a leg stood on force plates and none of its stances was measured, while those of the other leg \
+                 were"
+            }
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::ForceDirections => {
@@ -226,6 +233,7 @@ impl Measure {
             Measure::GroundForces
             | Measure::MeasuredForces
             | Measure::UncheckedForces
+            | Measure::UnmeasuredLeg
             | Measure::UnassignedForces
             | Measure::SilentPlates
             | Measure::ForceDirections

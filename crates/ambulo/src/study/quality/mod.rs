@@ -17,6 +17,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::timing::{ForceDelay, Tempo};
+use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
@@ -145,6 +146,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
+    /// A leg that stood on plates, but none of whose stances was measured.
+    pub(super) unmeasured_leg: Option<&'a UnmeasuredLeg>,
     pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
     /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
@@ -161,7 +164,8 @@ impl QualityEvidence<'_> {
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
+        let of_plates =
+            [self.unchecked_forces(), self.unmeasured_leg(), self.unassigned_forces(), self.silent_plates()];
         let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
@@ -238,6 +242,12 @@ impl QualityEvidence<'_> {
              nothing shows that forces and motion belong together"
                 .to_owned()
         })
+    }
+
+    /// The residual is checked in the stances of the other leg only.
+    fn unmeasured_leg(&self) -> Option<QualityReason> {
+        let leg = self.unmeasured_leg?;
+        Measure::UnmeasuredLeg.reason(1.0, |_| leg.message())
     }
 
     fn unassigned_forces(&self) -> Option<QualityReason> {

@@ -111,6 +111,10 @@ impl ForceDelay {
     fn agreed(self, events_s: Option<f64>, least_s: f64) -> Option<ForceDelay> {
         let by_residual_s = self.delay_s - SOFT_PARTS_S;
         let [force, moment] = [0, 1].map(|k| self.shifted[k] / self.recorded[k]);
+        eprintln!(
+            "DBG delay residual {:.4} events {events_s:?} force {force:.3} moment {moment:.3} least {least_s}",
+            by_residual_s
+        );
         let falls = force * moment <= FALLS_TO * FALLS_TO && force.max(moment) <= 1.0;
         let (delay_s, least_s) = match events_s {
             Some(events_s) if (events_s - by_residual_s).abs() > AGREE_S => return None,
