@@ -193,7 +193,11 @@ fn held_poses_of_segments_are_gaps() {
     let cases: [(Shown, usize, &str); 3] = [
         (|_, frame| frame, 0, ""),
         (|_, frame| frame / 5 * 5, 160, "20 frames per second that were held as 100"),
-        (|n, frame| if n == 1 { frame.min(100).max(frame / 150 * frame) } else { frame }, 49, "`right thigh` 49 frames"),
+        (
+            |n, frame| if n == 1 { frame.min(100).max(frame / 150 * frame) } else { frame },
+            49,
+            "`right thigh` 49 frames",
+        ),
     ];
     for (shown, expected, words) in cases {
         let (mut after, mut findings) = (poses(shown), Findings::default());

@@ -195,8 +195,9 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
 }
 
 fn of_calibration(error: &CalibrationError) -> Option<&'static str> {
-    matches!(error, CalibrationError::NoPlates { .. })
-        .then_some("`--grf FILE` or `--loads FILE.xml`, once per trial, name the forces that were measured apart from it")
+    matches!(error, CalibrationError::NoPlates { .. }).then_some(
+        "`--grf FILE` or `--loads FILE.xml`, once per trial, name the forces that were measured apart from it",
+    )
 }
 
 fn of_smpl(error: &SmplError) -> Option<&'static str> {

@@ -156,11 +156,13 @@ impl CalibrateRequest {
     }
 
     /// The job of each trial, with its measured forces.
-    pub(crate) fn jobs(&self) -> anyhow::Result<Vec<Job>> {
+    pub(crate) fn jobs(&self) -> Result<Vec<Job>> {
         for (what, files) in [("tables of forces", &self.tables), ("files of external loads", &self.loads)] {
             if !files.is_empty() && files.len() != self.trials.len() {
                 let (found, trials) = (files.len(), self.trials.len());
-                return Err(anyhow!("found {found} {what} for {trials} trials; expected one per trial, in their order"));
+                return Err(anyhow!(
+                    "found {found} {what} for {trials} trials; expected one per trial, in their order"
+                ));
             }
         }
         let job = |(number, trial): (usize, &PathBuf)| {

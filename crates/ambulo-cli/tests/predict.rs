@@ -314,9 +314,11 @@ fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() 
     bench.edit("person.toml", "mass_kg = 7", "mass_kg = 6");
     let other = [&["forces", walk][..], &body, &["--person", "person.toml"]].concat();
     bench.run(&other).refused(&[walk, "mass", "ambulo calibrate"]);
-    bench
-        .run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force", "--quiet"])
-        .refused(&["walk.trc", "plates", "`--grf FILE`"]);
+    bench.run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force", "--quiet"]).refused(&[
+        "walk.trc",
+        "plates",
+        "`--grf FILE`",
+    ]);
     bench.write("person.toml", "mass_kg = 3");
     bench.run(&other).refused(&["person.toml", "stances"]);
 }

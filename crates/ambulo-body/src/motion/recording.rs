@@ -132,7 +132,9 @@ pub enum MotionError {
         column: String,
     },
     /// Rows that all have one time.
-    #[error("all {rows} rows have the time {time} s and the same numbers; expected increasing times. hint: export again")]
+    #[error(
+        "all {rows} rows have the time {time} s and the same numbers; expected increasing times. hint: export again"
+    )]
     OneTime {
         /// Number of rows.
         rows: usize,
