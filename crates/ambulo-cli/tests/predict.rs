@@ -80,6 +80,9 @@ fn a_tracked_motion_agrees_with_its_forces_and_is_compared_with_plates() {
         summary["residual"]
     );
     assert!(!summary["comparison"].is_null() && !summary["tracking"]["predicted"].is_null());
+    // The elbows turn by 15 degrees at most, the shoulders too: a hand at 0.6 m moves by 0.3 m at most.
+    let hands_mm = summary["tracking"]["hands_mm"].as_f64().unwrap();
+    assert!(hands_mm < 300.0 && run.stdout.contains("a hand by at most"), "{hands_mm} mm: {}", run.stdout);
     for name in ["grf.mot", "grf_measured.mot", "kinematics.mot", "moments.sto", "powers.sto"] {
         assert!(bench.exists(&format!("out/{name}")), "{name}");
     }
