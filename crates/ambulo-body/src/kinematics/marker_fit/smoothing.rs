@@ -11,9 +11,8 @@
 //! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
-//! A fit that need only be near the minimum factors the matrix once and takes several steps with the same factor, each
-//! with its own right-hand side, which costs a tenth of a factor. It ends when a step with a factor that holds the same
-//! coordinates at the ends of their ranges is small.
+//! A fit that need only be near the minimum keeps the factor of a step for the next ones, each with its own right-hand
+//! side, as long as the same coordinates are at the ends of their ranges: a solution costs a tenth of a factor.
 //!
 //! Long recordings are fitted in blocks that overlap, of which the inner parts are used: the prior reaches a few tenths
 //! of a second, and the matrix of all frames would take 26 kB per frame.
@@ -94,11 +93,10 @@ struct Factored {
     held: Vec<bool>,
 }
 
-/// A step, the factor that gave it, and whether that holds the unknowns that are at the ends of their ranges now.
+/// A step, and the factor that gave it.
 struct Step {
     step: Vec<f64>,
     factored: Factored,
-    holds_the_same: bool,
 }
 
 /// Blocks of a recording: the frames that are fitted together, and those of them that are used.
@@ -203,19 +201,17 @@ impl SmoothFit {
         let (mut steps, mut converged) = (0, false);
         let mut kept: Option<Factored> = None;
         while steps < ending.steps && !converged {
-            let next = match kept.take() {
-                Some(factored) => self.next_step(problem, &mut normal, &x, factored),
-                None => self.first_step(problem, &mut normal, &x, ending),
-            };
-            let Some(Step { step, factored, holds_the_same }) = next else { break };
+            let again = kept.take().and_then(|factored| self.next_step(problem, &mut normal, &x, factored));
+            let is_new = again.is_none();
+            let next = again.or_else(|| self.first_step(problem, &mut normal, &x, ending));
+            let Some(Step { step, factored }) = next else { break };
             let Some((next, after)) = self.walk(problem, &x, &step, total) else {
-                converged = holds_the_same;
+                converged = is_new;
                 continue;
             };
             let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let is_small = longest < ending.small_step || total - after < ending.small_gain * total;
-            converged = is_small && holds_the_same;
-            kept = (!ending.newton && !is_small).then_some(factored);
+            converged = longest < ending.small_step || total - after < ending.small_gain * total;
+            kept = (!ending.newton).then_some(factored);
             (x, total) = (next, after);
             steps += 1;
         }
@@ -260,7 +256,7 @@ impl SmoothFit {
         newton.or_else(|| self.solve(problem, normal, x, 0.0, ending.damping))
     }
 
-    /// The step with a factor of earlier postures.
+    /// The step with a factor of earlier postures; `None` if other unknowns are at the ends of their ranges now.
     fn next_step(
         &self,
         problem: &mut FitProblem<'_>,
@@ -269,9 +265,11 @@ impl SmoothFit {
         factored: Factored,
     ) -> Option<Step> {
         let mut right = self.right_side(problem, normal, x, |_, _, _| ());
-        let holds_the_same = self.hold(problem, x, &mut right) == factored.held;
+        if self.hold(problem, x, &mut right) != factored.held {
+            return None;
+        }
         factored.factor.solve(&mut right);
-        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored, holds_the_same })
+        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
     }
 
     fn solve(
@@ -308,7 +306,7 @@ impl SmoothFit {
         let factor = matrix.factor()?;
         factor.solve(&mut right);
         let factored = Factored { factor, held };
-        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored, holds_the_same: true })
+        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
     }
 
     /// The right-hand side at these postures; `each` gets the first row of each frame, its normal equations and its
