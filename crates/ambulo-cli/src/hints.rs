@@ -13,7 +13,7 @@ use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
 use ambulo::optimal::OptimalWalkError;
 use ambulo::simulation::synthetic::SyntheticError;
-use ambulo::study::StudyError;
+use ambulo::study::{CalibrationError, StudyError};
 use ambulo_results::ResultsError;
 use std::error::Error;
 
@@ -119,6 +119,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_analysis),
         cause.downcast_ref().and_then(of_motion),
         cause.downcast_ref().and_then(of_trajectory),
+        cause.downcast_ref().and_then(of_calibration),
         cause.downcast_ref().and_then(of_prediction),
         cause.downcast_ref().and_then(of_skeleton),
         cause.downcast_ref().and_then(of_subject),
@@ -191,6 +192,12 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+fn of_calibration(error: &CalibrationError) -> Option<&'static str> {
+    matches!(error, CalibrationError::NoPlates { .. }).then_some(
+        "`--grf FILE` or `--loads FILE.xml`, once per trial, name the forces that were measured apart from it",
+    )
 }
 
 fn of_smpl(error: &SmplError) -> Option<&'static str> {

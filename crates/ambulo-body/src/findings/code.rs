@@ -255,9 +255,9 @@ codes! {
         "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
     MarkersHeldInPlace "markers.held_in_place" Warning
-        "A marker stays exactly in place while the others move: a program filled a gap by holding its last position. \
-         These samples were treated as gaps."
-        "Fill the gaps of these markers by another method, or leave them open.";
+        "A marker, a sensor or a segment stays exactly in place while the others move: a program filled a gap by \
+         holding its last sample. These samples were treated as gaps."
+        "Fill these gaps by another method, or leave them open.";
     MarkersZeroIsGap "markers.zero_is_gap" Warning
         "Positions of exactly 0 0 0 were read as gaps."
         "Export gaps as missing values.";

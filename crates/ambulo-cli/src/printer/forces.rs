@@ -116,13 +116,14 @@ fn outline(summary: &Summary) -> Result<()> {
 
 /// How far the motion was changed until feet on the ground supplied its external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
-    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, hands_mm, .. } =
+        tracking;
     let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
     let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
+    let hands = hands_mm.map_or_else(String::new, |mm| format!(", a hand by at most {mm:.0} mm"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most \
-         {:.3} \
-         % of body weight, {steps} steps",
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual at \
+         most {:.3} % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
 }

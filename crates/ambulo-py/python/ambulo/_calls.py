@@ -282,6 +282,10 @@ def calibrate_person(
     trials: Recording | _Path | Sequence[Recording | _Path],
     model: Model | _Path | bytes | None = None,
     *,
+    grf: Recording | Table | _Path | Sequence[Recording | Table | _Path] | None = None,
+    loads: _Path | bytes | Sequence[_Path | bytes] | None = None,
+    right: str | None = None,
+    left: str | None = None,
     static: Recording | _Path | None = None,
     mass: float | None = None,
     height: float | None = None,
@@ -301,9 +305,15 @@ def calibrate_person(
     Parameters
     ----------
     trials : Recording, str or path-like, or a sequence of these
-        Trials of one person walking over force plates (``.c3d``), each foot on a separate plate.
+        Trials of one person walking over force plates, each foot on a separate plate: recordings that `forces` takes.
     model : Model, str, path-like or bytes, optional
         The body.
+    grf : Recording, Table, str or path-like, or a sequence of these, optional
+        Measured ground forces, one table per trial; by default the force plates in the trials.
+    loads : str, path-like or bytes, or a sequence of these, optional
+        OpenSim external loads, one file per trial: which columns act on which body.
+    right, left : str, optional
+        Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     static : Recording, str or path-like, optional
         Standing trial of the same person.
     mass : float, optional
@@ -346,8 +356,15 @@ def calibrate_person(
     inputs = Inputs()
     named = [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials
     paths = [path for trial in named if (path := inputs.path(trial, "trial.c3d"))]
+    given = [files if isinstance(files, (list, tuple)) else [files] for files in (grf, loads)]
+    measured = [
+        [path for file in files if (path := inputs.path(file, name))]
+        for files, name in zip(given, ("grf.mot", "loads.xml"), strict=True)
+    ]
     options = {
         "model": inputs.path(model, "model.osim"),
+        "right": right,
+        "left": left,
         "static": inputs.path(static, "static"),
         "marker_set": inputs.path(marker_set, "markers.xml"),
         "plates": plates and dict(plates),
@@ -360,7 +377,7 @@ def calibrate_person(
         "max_gap": max_gap,
         "force_delay": force_delay,
     }
-    return Person(_ambulo.calibrate(paths, options, inputs.files()))
+    return Person(_ambulo.calibrate(paths, measured, options, inputs.files()))
 
 
 def validate(

@@ -91,6 +91,8 @@ pub struct TrackedGround {
     pub moved: [f64; 2],
     /// Largest change of each rotation [rad], by the name of its coordinate.
     pub turned: Vec<(String, f64)>,
+    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [m]; `None` without arms.
+    pub hands_m: Option<f64>,
     /// Steps of the solver.
     pub steps: usize,
     /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured
