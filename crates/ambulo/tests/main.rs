@@ -130,6 +130,7 @@ mod prediction_checks;
 mod quality;
 mod recordings;
 mod refit;
+mod region_fit;
 mod residual_reduction;
 mod residual_reduction_synthetic;
 mod retarget;
