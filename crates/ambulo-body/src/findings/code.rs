@@ -348,10 +348,6 @@ codes! {
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
-    CalibrationArmsSwing "calibration.arms_swing" Note
-        "An arm has no marker; it is assumed to hang and to swing with the opposite leg, which hardly matters for the \
-         moments of the legs."
-        "Add markers on the arms.";
     KeypointsNoise "keypoints.noise" Note
         "The recording has keypoints of video instead of markers; their noise was estimated, and positions far from \
          their paths were left out."
