@@ -383,10 +383,8 @@ fn measured_share(outcome: &Outcome) -> Option<MeasuredShare> {
 
 fn subject(tracking: &Tracking) -> SubjectSummary {
     match tracking {
-        Tracking::Markers(markers) => {
-            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
-        }
-        Tracking::Skeleton { statement, fit, .. } => SubjectSummary::of_skeleton(statement, fit),
+        Tracking::Markers(markers) => SubjectSummary::of_markers(markers),
+        Tracking::Skeleton { statement, fit, regions, .. } => SubjectSummary::of_skeleton(statement, fit, regions),
     }
 }
 

@@ -303,8 +303,12 @@ codes! {
          value, or it lies on its limit in more than a tenth of the frames. Clinical tables and scores leave it out."
         "Record all markers of the segment in the motion and in the standing trial; at a limit, check for misplaced or \
          exchanged markers.";
-    MarkersArms "markers.arms" Note
-        "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
+    MarkersTrunk "markers.trunk" Warning
+        "The markers of trunk and head are far from the body, while those of pelvis and legs fit: residuals and \
+         predicted ground forces are uncertain, moments of the legs from measured ground forces are not."
+        "Check the markers of the trunk: whether one moved after the standing trial or has another marker's label.";
+    MarkersArms "markers.arms" Warning
+        "The markers of the arms are far from the body, while those of pelvis and legs fit."
         "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
     MarkersSidesExchanged "markers.sides_exchanged" Warning
         "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were \

@@ -129,7 +129,7 @@ impl ForceDirections {
     /// The verdict, which judges the movement and not faulty data.
     pub(super) fn set_aside(&self, mut verdict: Verdict, force_origin: &ForceOrigin) -> Verdict {
         if let Some((sentence, _)) = self.worst().filter(|_| is_used(force_origin)) {
-            verdict.set_aside(|check| check != Check::Range, sentence.to_owned());
+            verdict.set_aside(|reason| reason.check != Check::Range, sentence.to_owned());
         }
         verdict
     }

@@ -6,6 +6,7 @@ use super::idle_forces::IdleForces;
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::origin::Tracking;
+use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
 use super::source::{
@@ -317,15 +318,16 @@ impl Statements {
         let motion = body.fit.motion.clone();
         let observation = Observation {
             person: Person::of_human(&body.human),
-            model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
             is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
+                regions: RegionFit::of(&body.human.model, &body.fit),
                 fit: Box::new(body.fit),
                 flights: body.flights,
             })),
+            model: self.loaded(body.human.model)?,
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,
             has_models_mass: false,

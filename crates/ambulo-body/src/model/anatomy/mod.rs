@@ -12,10 +12,12 @@ mod axes;
 mod legs;
 mod movement;
 mod pelvic_frame;
+mod region;
 mod sole;
 
 pub use movement::{Meaning, Movement};
 pub use pelvic_frame::{PelvicFrame, PelvicFrameError};
+pub use region::Region;
 pub use sole::{Sole, SolePoint, Stature};
 
 use super::posture::ModelPosture;
