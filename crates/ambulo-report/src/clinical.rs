@@ -152,10 +152,14 @@ pub struct ClinicalQuantity {
     pub group: ClinicalGroup,
     /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,
-    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces their name in `cycles.csv`.
+    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces and moments of reactions their name
+    /// in `cycles.csv`.
     pub coordinates: BySide<String>,
     /// Whether it belongs to pelvis or trunk: files over time then have one column for both sides.
     pub central: bool,
+    /// The movement that drives a moment which is read off the reaction in the joint, because no coordinate has it. Over
+    /// time it is in `clinical.csv` alone.
+    pub reaction: Option<Movement>,
     /// +1 or -1 for each side: displayed number = sign x number in the file.
     signs: BySide<f64>,
 }
@@ -229,19 +233,27 @@ enum Source {
     Movement(Movement, f64),
     /// The same for a movement defined for the right side: negated for the left side.
     Own(Movement, f64),
+    /// The moment against a movement of a leg: that of its coordinate, otherwise that of the joint's reaction.
+    Joint(Movement),
+    /// The moment of the joint's reaction against a movement of a leg.
+    Reaction(Movement),
     /// A ground force, with its signs on the right and the left.
     Ground(&'static str, [f64; 2]),
 }
 
 impl Row {
     fn found(&self, names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
+        let is_known = |movement| Side::BOTH.into_iter().any(|side| names.find(movement, side).is_some());
         let (movement, signs) = match self.source {
-            Source::Ground(column, signs) => {
-                let column = BySide::from([column, column]).map(str::to_owned);
-                return has(&column.right).then(|| self.quantity(column.clone(), column, signs.into()));
-            }
+            Source::Ground(column, signs) => return self.named(column, signs, has),
             Source::Movement(movement, sign) => (movement, BySide { right: sign, left: sign }),
             Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
+            Source::Joint(movement) if is_known(movement) => (movement, BySide { right: -1.0, left: -1.0 }),
+            Source::Joint(movement) | Source::Reaction(movement) => {
+                let reaction = is_known(Movement::HipAdduction).then_some(movement)?;
+                let found = self.named(self.id, [-1.0; 2], has)?;
+                return Some(ClinicalQuantity { reaction: Some(reaction), ..found });
+            }
         };
         // A missing leg gets the names of the other leg.
         let entries = BySide::from_fn(|side| names.find(movement, side).or_else(|| names.find(movement, side.other())));
@@ -255,10 +267,16 @@ impl Row {
         Some(self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs))
     }
 
+    /// A quantity with the same name on both sides, which is not that of a coordinate.
+    fn named(&self, column: &str, signs: [f64; 2], has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
+        let columns = BySide::from([column, column]).map(str::to_owned);
+        has(column).then(|| self.quantity(columns.clone(), columns, signs.into()))
+    }
+
     fn quantity(&self, columns: BySide<String>, coordinates: BySide<String>, signs: BySide<f64>) -> ClinicalQuantity {
         let central = match self.source {
             Source::Movement(movement, _) | Source::Own(movement, _) => is_central(movement),
-            Source::Ground(..) => false,
+            Source::Joint(..) | Source::Reaction(..) | Source::Ground(..) => false,
         };
         ClinicalQuantity {
             id: self.id,
@@ -270,6 +288,7 @@ impl Row {
             columns,
             coordinates,
             central,
+            reaction: None,
             signs,
         }
     }
@@ -305,6 +324,7 @@ const POWERS: ClinicalGroup = ClinicalGroup::Powers;
 const GROUND: ClinicalGroup = ClinicalGroup::Ground;
 
 const POWER: [&str; 2] = ["generated", "absorbed"];
+const ROTATORS: [&str; 2] = ["external rotator", "internal rotator"];
 
 /// All rows. Signs of the movements: [`Movement`]; of panels: docs/CONVENTIONS.md, "Signs in panels".
 #[rustfmt::skip]
@@ -330,13 +350,16 @@ const ROWS: &[Row] = &[
     row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::HipFlexion)),
     row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS,
         against(Movement::HipAdduction)),
-    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS,
-        against(Movement::HipRotation)),
+    row("hip_rotation_moment", "Hip rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::HipRotation)),
     row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::KneeFlexion)),
     row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS,
-        against(Movement::KneeAdduction)),
+        Source::Joint(Movement::KneeAdduction)),
+    row("knee_rotation_moment", "Knee rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::KneeRotation)),
     row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS,
         against(Movement::AnkleDorsiflexion)),
+    row("ankle_inversion_moment", "Ankle inversion moment", ["evertor", "invertor"], MOMENTS,
+        Source::Reaction(Movement::SubtalarInversion)),
+    row("ankle_rotation_moment", "Ankle rotation moment", ROTATORS, MOMENTS, Source::Reaction(Movement::FootRotation)),
     row("hip_flexion_power", "Hip power", POWER, POWERS, same(Movement::HipFlexion)),
     row("knee_flexion_power", "Knee power", POWER, POWERS, same(Movement::KneeFlexion)),
     row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, same(Movement::AnkleDorsiflexion)),

@@ -8,10 +8,12 @@
 //! | ground    | body weights | `ground_force_vertical_r`  |
 //!
 //! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
-//! [`clinical_angles`]; all other numbers are those of the files with OpenSim signs, times a constant.
+//! [`clinical_angles`]. Moments that no coordinate has come from the reactions in the joints
+//! ([`ambulo::dynamics::JointMoments`]). All other numbers are those of the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;
+use ambulo::dynamics::JointMoments;
 use ambulo::ground::feet;
 use ambulo::ground::stances::StanceSource;
 use ambulo::kinematics::{ClinicalAngles, clinical_angles};
@@ -19,7 +21,7 @@ use ambulo::model::anatomy::{PelvicFrame, PelvicFrameError};
 use ambulo::model::{BySide, CoordinateId, Model, Side};
 use ambulo::study::{ForceOrigin, Outcome, Tracking};
 use ambulo_formats::table::{Table, TableRows};
-use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
+use ambulo_results::{CLINICAL, Convention, ConventionSummary, JOINT_MOMENTS, OutputFile, ground_columns};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -78,6 +80,8 @@ pub(crate) struct Curves<'a> {
     angles: Option<&'a ClinicalAngles>,
     /// Coordinates whose angles, moments and powers are no results.
     not_measured: &'a [CoordinateId],
+    /// Moments of the legs in three planes.
+    moments: JointMoments<'a>,
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
     /// The mass that moments, powers and ground forces are divided by [kg].
@@ -91,7 +95,8 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
+        let moments = analysis.joint_moments(model);
+        Curves { model, analysis, angles, not_measured: &[], moments, ground, mass_kg: analysis.mass.kg }
     }
 
     /// The same without the quantities of coordinates that are not measured.
@@ -125,6 +130,7 @@ impl<'a> Curves<'a> {
         let stems = self.model.coordinate_ids().map(|id| self.model.coordinate_stem(id));
         let mut names: BTreeSet<String> =
             stems.flat_map(|stem| ["angle", "moment", "power"].map(|what| format!("{stem}_{what}"))).collect();
+        names.extend(JOINT_MOMENTS.map(|(name, _)| name.to_owned()));
         if !self.ground.is_empty() {
             names.extend(["vertical", "fore_aft", "lateral"].map(|axis| format!("ground_force_{axis}")));
         }
@@ -133,6 +139,10 @@ impl<'a> Curves<'a> {
 
     /// Whether a quantity follows from a coordinate that is not measured.
     fn is_unmeasured(&self, quantity: &ClinicalQuantity, side: Side) -> bool {
+        let is_above = |movement| self.model.anatomy().is_any_above(self.not_measured, movement, side);
+        if quantity.reaction.is_some_and(is_above) {
+            return true;
+        }
         self.coordinate(quantity, side).is_some_and(|id| self.not_measured.contains(&id))
     }
 
@@ -152,9 +162,10 @@ impl<'a> Curves<'a> {
                     Some(scaled(values, factor * 1.0_f64.to_degrees()))
                 })
             }
-            ClinicalGroup::Moments => {
-                Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor))
-            }
+            ClinicalGroup::Moments => match quantity.reaction {
+                Some(movement) => Some(scaled(&self.moments.column(movement, side)?, factor)),
+                None => Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor)),
+            },
             ClinicalGroup::Powers => {
                 Some(scaled(&self.analysis.powers(self.model).column(self.coordinate(quantity, side)?), factor))
             }

@@ -9,7 +9,7 @@ use ambulo::analysis::{Analysis, Cycle, over_cycle};
 use ambulo::kinematics::ClinicalAngles;
 use ambulo::model::{CoordinateId, Model, Side};
 use ambulo::study::{Outcome, PredictedGround};
-use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
+use ambulo_results::{Convention, CycleRow, JOINT_MOMENTS, OutputFile, cycle_rows};
 
 /// `figures/quality.svg` and the figures of gait cycles, in which the reasons of a verdict are marked. Pelvis and hips
 /// have the given angles, otherwise the coordinates of the model.
@@ -39,6 +39,10 @@ impl Drawn<'_> {
     /// Whether a curve of a cycle is measured.
     fn is_measured(&self, row: &CycleRow) -> bool {
         let anatomy = self.model.anatomy();
+        let of_joint = JOINT_MOMENTS.iter().find(|(name, _)| *name == row.quantity);
+        if of_joint.is_some_and(|(_, movement)| anatomy.is_any_above(self.not_measured, *movement, row.side)) {
+            return false;
+        }
         !self.not_measured.iter().any(|id| {
             let is_of_side = anatomy.coordinate_side(*id).is_none_or(|side| side == row.side);
             let ending = row.quantity.strip_prefix(&self.model.coordinate_stem(*id));

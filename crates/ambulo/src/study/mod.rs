@@ -23,6 +23,7 @@ mod force_directions;
 mod force_filter;
 mod force_table;
 mod idle_forces;
+mod knee_adduction;
 mod laboratory_file;
 pub(crate) mod mass;
 mod measured;

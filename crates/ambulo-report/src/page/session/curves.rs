@@ -74,7 +74,7 @@ impl ShownCurve {
 
 /// The cycles of a foot, in the order of the file.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
-    if results.summary.not_measured.contains(&quantity.coordinates[side]) {
+    if results.summary.not_measured.contains(&quantity.coordinates[side]) || is_left_out(results, quantity, side) {
         return Vec::new();
     }
     let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
@@ -93,6 +93,12 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
         }
     };
     rows.map(shown).collect()
+}
+
+/// Whether `clinical.csv` leaves out a moment of a joint's reaction, because the joint is not measured.
+fn is_left_out(results: &Results, quantity: &ClinicalQuantity, side: Side) -> bool {
+    let has_file = quantity.reaction.is_some() && results.clinical.is_some();
+    has_file && results.clinical_column(quantity, side).is_none()
 }
 
 /// A column of `clinical.csv`, time-normalised over a cycle.
@@ -195,6 +201,10 @@ impl Place<'_> {
             return None;
         }
         let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
+        if quantity.reaction.is_some() {
+            let (column, _) = results.clinical_column(quantity, side?)?;
+            return Some(place(results.clinical.as_ref()?, CLINICAL, column));
+        }
         match quantity.group {
             ClinicalGroup::Kinematics => Some(place(&results.kinematics, KINEMATICS, coordinate)),
             ClinicalGroup::Moments => Some(place(results.moments.as_ref()?, MOMENTS, format!("{coordinate}_moment"))),
