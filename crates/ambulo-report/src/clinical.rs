@@ -152,14 +152,14 @@ pub struct ClinicalQuantity {
     pub group: ClinicalGroup,
     /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,
-    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces and moments of reactions their name
+    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces and derived quantities their name
     /// in `cycles.csv`.
     pub coordinates: BySide<String>,
     /// Whether it belongs to pelvis or trunk: files over time then have one column for both sides.
     pub central: bool,
-    /// The movement that drives a moment which is read off the reaction in the joint, because no coordinate has it. Over
-    /// time it is in `clinical.csv` alone.
-    pub reaction: Option<Movement>,
+    /// The movement of a quantity that no coordinate has: a moment from the reaction in the joint, or an angle from the
+    /// markers of its segments. Over time it is in `clinical.csv` alone.
+    pub derived: Option<Movement>,
     /// +1 or -1 for each side: displayed number = sign x number in the file.
     signs: BySide<f64>,
 }
@@ -233,10 +233,11 @@ enum Source {
     Movement(Movement, f64),
     /// The same for a movement defined for the right side: negated for the left side.
     Own(Movement, f64),
-    /// The moment against a movement of a leg: that of its coordinate, otherwise that of the joint's reaction.
-    Joint(Movement),
-    /// The moment of the joint's reaction against a movement of a leg.
-    Reaction(Movement),
+    /// A movement of a leg that may have no coordinate, with the sign of what is displayed: the angle is then that of
+    /// the segments' markers, the moment that of the joint's reaction.
+    Joint(Movement, f64),
+    /// The same, always without the coordinate.
+    Derived(Movement, f64),
     /// A ground force, with its signs on the right and the left.
     Ground(&'static str, [f64; 2]),
 }
@@ -248,11 +249,11 @@ impl Row {
             Source::Ground(column, signs) => return self.named(column, signs, has),
             Source::Movement(movement, sign) => (movement, BySide { right: sign, left: sign }),
             Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
-            Source::Joint(movement) if is_known(movement) => (movement, BySide { right: -1.0, left: -1.0 }),
-            Source::Joint(movement) | Source::Reaction(movement) => {
-                let reaction = is_known(Movement::HipAdduction).then_some(movement)?;
-                let found = self.named(self.id, [-1.0; 2], has)?;
-                return Some(ClinicalQuantity { reaction: Some(reaction), ..found });
+            Source::Joint(movement, sign) if is_known(movement) => (movement, BySide { right: sign, left: sign }),
+            Source::Joint(movement, sign) | Source::Derived(movement, sign) => {
+                let derived = is_known(Movement::HipAdduction).then_some(movement)?;
+                let found = self.named(self.id, [sign; 2], has)?;
+                return Some(ClinicalQuantity { derived: Some(derived), ..found });
             }
         };
         // A missing leg gets the names of the other leg.
@@ -276,7 +277,7 @@ impl Row {
     fn quantity(&self, columns: BySide<String>, coordinates: BySide<String>, signs: BySide<f64>) -> ClinicalQuantity {
         let central = match self.source {
             Source::Movement(movement, _) | Source::Own(movement, _) => is_central(movement),
-            Source::Joint(..) | Source::Reaction(..) | Source::Ground(..) => false,
+            Source::Joint(..) | Source::Derived(..) | Source::Ground(..) => false,
         };
         ClinicalQuantity {
             id: self.id,
@@ -288,7 +289,7 @@ impl Row {
             columns,
             coordinates,
             central,
-            reaction: None,
+            derived: None,
             signs,
         }
     }
@@ -336,8 +337,10 @@ const ROWS: &[Row] = &[
     row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], KINEMATICS, same(Movement::HipAdduction)),
     row("hip_rotation_angle", "Hip rotation", ["internal", "external"], KINEMATICS, same(Movement::HipRotation)),
     row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, same(Movement::KneeFlexion)),
-    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, same(Movement::KneeAdduction)),
-    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, same(Movement::KneeRotation)),
+    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS,
+        Source::Joint(Movement::KneeAdduction, 1.0)),
+    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS,
+        Source::Joint(Movement::KneeRotation, 1.0)),
     row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS,
         same(Movement::AnkleDorsiflexion)),
     row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS,
@@ -350,16 +353,16 @@ const ROWS: &[Row] = &[
     row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::HipFlexion)),
     row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS,
         against(Movement::HipAdduction)),
-    row("hip_rotation_moment", "Hip rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::HipRotation)),
+    row("hip_rotation_moment", "Hip rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::HipRotation, -1.0)),
     row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::KneeFlexion)),
     row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS,
-        Source::Joint(Movement::KneeAdduction)),
-    row("knee_rotation_moment", "Knee rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::KneeRotation)),
+        Source::Joint(Movement::KneeAdduction, -1.0)),
+    row("knee_rotation_moment", "Knee rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::KneeRotation, -1.0)),
     row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS,
         against(Movement::AnkleDorsiflexion)),
     row("ankle_inversion_moment", "Ankle inversion moment", ["evertor", "invertor"], MOMENTS,
-        Source::Reaction(Movement::SubtalarInversion)),
-    row("ankle_rotation_moment", "Ankle rotation moment", ROTATORS, MOMENTS, Source::Reaction(Movement::FootRotation)),
+        Source::Derived(Movement::SubtalarInversion, -1.0)),
+    row("ankle_rotation_moment", "Ankle rotation moment", ROTATORS, MOMENTS, Source::Derived(Movement::FootRotation, -1.0)),
     row("hip_flexion_power", "Hip power", POWER, POWERS, same(Movement::HipFlexion)),
     row("knee_flexion_power", "Knee power", POWER, POWERS, same(Movement::KneeFlexion)),
     row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, same(Movement::AnkleDorsiflexion)),

@@ -77,7 +77,8 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
     if results.summary.not_measured.contains(&quantity.coordinates[side]) || is_left_out(results, quantity, side) {
         return Vec::new();
     }
-    let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
+    let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id)
+        || quantity.derived.is_some() && quantity.group == ClinicalGroup::Kinematics;
     if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
         return results.cycles_of(side).map(|cycle| over_cycle(results, cycle, side, &column, values)).collect();
     }
@@ -95,9 +96,9 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
     rows.map(shown).collect()
 }
 
-/// Whether `clinical.csv` leaves out a moment of a joint's reaction, because the joint is not measured.
+/// Whether `clinical.csv` leaves out a quantity that no coordinate has, because the joint is not measured.
 fn is_left_out(results: &Results, quantity: &ClinicalQuantity, side: Side) -> bool {
-    let has_file = quantity.reaction.is_some() && results.clinical.is_some();
+    let has_file = quantity.derived.is_some() && results.clinical.is_some();
     has_file && results.clinical_column(quantity, side).is_none()
 }
 
@@ -201,7 +202,7 @@ impl Place<'_> {
             return None;
         }
         let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
-        if quantity.reaction.is_some() {
+        if quantity.derived.is_some() {
             let (column, _) = results.clinical_column(quantity, side?)?;
             return Some(place(results.clinical.as_ref()?, CLINICAL, column));
         }

@@ -4,6 +4,7 @@ use super::curves;
 use super::results::Results;
 use super::size::BodySize;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity, clinical_quantities};
+use crate::clinical_file::KNEE_ANGLES;
 use crate::page::block::Block;
 use crate::page::contract::{Group, PageSource, Panel};
 use ambulo::model::Side;
@@ -105,6 +106,8 @@ fn names(results: &Results) -> BTreeSet<String> {
     let ground = results.ground.iter().flat_map(|_| curves::GROUND_AXES.iter().map(|(name, _)| (*name).to_owned()));
     let over_cycles = results.curves.iter().map(|curve| curve.quantity.clone());
     let clinical = results.clinical.iter().flat_map(|table| table.names().iter().map(|column| stem(column)));
-    let of_joints = clinical.filter(|name| JOINT_MOMENTS.iter().any(|(known, _)| known == name));
-    over_time.chain(forces).chain(ground).chain(over_cycles).chain(of_joints).collect()
+    let derived = clinical
+        .flat_map(|name| [format!("{name}_angle"), name])
+        .filter(|name| KNEE_ANGLES.contains(&name.as_str()) || JOINT_MOMENTS.iter().any(|(known, _)| known == name));
+    over_time.chain(forces).chain(ground).chain(over_cycles).chain(derived).collect()
 }
