@@ -37,8 +37,8 @@ pub const JOINT_MOMENTS: [(&str, Movement); 5] = [
     ("ankle_rotation_moment", Movement::FootRotation),
 ];
 
-/// Angle, moment and power of every coordinate, the moments of the legs in the other planes, and the ground forces, over
-/// every cycle. Coordinates of a leg are cut
+/// Angle, moment and power of every coordinate, the moments of the legs in the other planes, and the ground forces,
+/// over every cycle. Coordinates of a leg are cut
 /// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {

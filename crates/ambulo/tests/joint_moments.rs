@@ -1,8 +1,8 @@
 //! Moments of three planes from the reactions in hip, knee and ankle.
 //!
-//! Identities: where a joint has coordinates about the axes, the moments are their generalised forces; frames of bodies,
-//! axes of the world and the other side change nothing. A closed form: the moment of a vertical force beside the knee.
-//! The comparison with Plug-in-Gait is in plug_in_gait_planes.rs.
+//! Identities: where a joint has coordinates about the axes, the moments are their generalised forces; frames of
+//! bodies, axes of the world and the other side change nothing. A closed form: the moment of a vertical force beside
+//! the knee. The comparison with Plug-in-Gait is in plug_in_gait_planes.rs.
 
 use crate::anatomy_models;
 use crate::common::random::{Random, load_on, state};

@@ -57,8 +57,8 @@ enum Axis {
     Proximal,
 }
 
-/// A joint of Plug-in-Gait: its name, its centre, the segment whose axes its moment has, the axis of each component with
-/// its sign on the right, and the movements of ours against which the components act.
+/// A joint of Plug-in-Gait: its name, its centre, the segment whose axes its moment has, the axis of each component
+/// with its sign on the right, and the movements of ours against which the components act.
 struct Joint {
     name: &'static str,
     center: &'static str,
@@ -265,4 +265,48 @@ fn a_moment_with_the_sign_of_the_other_side_is_not_that_of_plug_in_gait() {
     let [_, axes, _] = walk.compared(Side::Right, &JOINTS[1]);
     let turned: Vec<(f64, f64)> = axes[1].iter().map(|(ours, theirs)| (-ours, *theirs)).collect();
     assert!(agreement(&axes[1]).r > 0.9 && agreement(&turned).r < -0.9);
+}
+
+/// Varus and internal rotation of the knee [deg], ours and Plug-in-Gait's, while the foot is on its plate.
+fn knee_angles(walk: &Walk, side: Side) -> Option<[Vec<(f64, f64)>; 2]> {
+    let ours = walk.outcome.knee_angles()[side].clone()?;
+    let letter = if side == Side::Right { "R" } else { "L" };
+    let theirs = walk.file.point(&format!("{letter}KneeAngles"))?;
+    let mut found: [Vec<(f64, f64)>; 2] = Default::default();
+    for (frame, own) in walk.frames(side) {
+        for (k, list) in found.iter_mut().enumerate() {
+            let pair = (ours[k][own].to_degrees(), theirs.positions[frame][k + 1]);
+            list.extend((pair.0.is_finite() && pair.1.is_finite() && pair.1 != 0.0).then_some(pair));
+        }
+    }
+    Some(found)
+}
+
+/// Constant offsets are those of the axes: of wands, and of the neutral posture.
+#[test]
+fn varus_and_rotation_of_the_knee_move_as_those_of_plug_in_gait() {
+    let Some(folder) = shared_data::data() else { return };
+    let mut legs: [Vec<Agreement>; 2] = Default::default();
+    for trial in &TRIALS {
+        let walk = trial.run(&folder);
+        for side in Side::BOTH {
+            let Some(found) = knee_angles(&walk, side) else { continue };
+            for (k, pairs) in found.iter().enumerate().filter(|(_, pairs)| pairs.len() > 40) {
+                let offset = pairs.iter().map(|(ours, theirs)| ours - theirs).sum::<f64>() / pairs.len() as f64;
+                let centred: Vec<(f64, f64)> = pairs.iter().map(|(ours, theirs)| (ours - offset, *theirs)).collect();
+                let leg = agreement(&centred);
+                let name = ["varus", "rotation"][k];
+                println!(
+                    "  {name:<8} {side:<5} offset {offset:+6.1} r {:6.3} RMS {:.1} deg  {}",
+                    leg.r, leg.rms, trial.walk
+                );
+                legs[k].push(leg);
+            }
+        }
+    }
+    for (name, legs) in ["varus", "rotation"].iter().zip(&legs) {
+        let mean = |of: fn(&Agreement) -> f64| legs.iter().map(of).sum::<f64>() / legs.len() as f64;
+        let (r, rms) = (mean(|leg| leg.r), mean(|leg| leg.rms));
+        println!("{name}: mean r {r:.3}, RMS {rms:.1} deg about the offset, {} legs", legs.len());
+    }
 }

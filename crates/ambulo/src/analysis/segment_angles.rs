@@ -35,8 +35,8 @@ const LEAST_ARM_M: f64 = 0.035;
 const STEPS: usize = 8;
 
 /// Varus (adduction) and internal rotation of both knees in the frames of a marker recording that the body follows
-/// [rad]; a gap is not a number. `None` for a leg whose markers do not suffice, and for a body whose knee turns in these
-/// planes itself.
+/// [rad]; a gap is not a number. `None` for a leg whose markers do not suffice, and for a body whose knee turns in
+/// these planes itself.
 pub fn knee_angles(model: &Model, markers: &MarkerRecording, motion: &Motion) -> BySide<Option<[Vec<f64>; 2]>> {
     let knees = BySide::from_fn(|side| Knee::of(model, markers, side));
     let mut angles = knees.as_ref().map(|knee| knee.map(|_| Default::default()));

@@ -11,8 +11,8 @@
 //! Pinned by: tests/stance_load.rs
 
 /// First peak, second peak and impulse of a moment over a stance of this duration [s]. `values` are at even steps from
-/// foot strike to foot off; the impulse is in their unit times a second. `None` with fewer than two values, or if one is
-/// not finite.
+/// foot strike to foot off; the impulse is in their unit times a second. `None` with fewer than two values, or if one
+/// is not finite.
 #[must_use]
 pub fn stance_load(values: &[f64], duration_s: f64) -> Option<[f64; 3]> {
     let steps = values.len().checked_sub(1).filter(|steps| *steps > 0)?;

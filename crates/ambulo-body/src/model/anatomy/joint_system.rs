@@ -11,8 +11,8 @@
 //! do not matter; a joint that does not flex has the axis of the body to the right.
 //!
 //! Source: Grood, Suntay 1983 (knee), Wu 2002 (hip and ankle; unverified).
-//! Not handled: legs that move in the sagittal plane only. Where their joints lie sideways is not known, so they have no
-//! moments of the other planes.
+//! Not handled: legs that move in the sagittal plane only. Where their joints lie sideways is not known, so they have
+//! no moments of the other planes.
 //! Pinned by: tests/joint_moments.rs
 
 use super::legs::{LegChain, Tree};

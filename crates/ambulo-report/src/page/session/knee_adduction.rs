@@ -9,7 +9,8 @@ const ASYMMETRIC: f64 = 10.0;
 
 /// The table; `None` if no whole stance has the moment.
 pub(super) fn knee_adduction(quantities: &[QuantitySummary]) -> Option<Table> {
-    let note = "External moment, over whole stances; positive values load the medial side of the knee. The peaks are the \
+    let note = "External moment, over whole stances; positive values load the medial side of the knee. The peaks are \
+        the \
         largest values in the first and in the second half of stance, the impulse is the area of the positive part.";
     let columns = ["", "Unit", "Right", "Left", "Difference [%]"].map(str::to_owned).to_vec();
     let rows: Vec<Vec<Cell>> = quantities.iter().map(row).collect();
