@@ -22,7 +22,6 @@
 //! Pinned by: tests/segment_angles.rs
 
 use crate::kinematics::calibration::angles_zxy;
-use crate::kinematics::{Posture, body_motion};
 use crate::model::anatomy::{Leg, Movement};
 use crate::model::{BodyId, BySide, Coordinate, Model, Side};
 use crate::motion::{MarkerRecording, Motion};
@@ -39,19 +38,17 @@ const STEPS: usize = 8;
 /// these planes itself.
 pub fn knee_angles(model: &Model, markers: &MarkerRecording, motion: &Motion) -> BySide<Option<[Vec<f64>; 2]>> {
     let knees = BySide::from_fn(|side| Knee::of(model, markers, side));
-    let mut angles = knees.as_ref().map(|knee| knee.map(|_| Default::default()));
+    let mut angles = knees.as_ref().map(|knee| knee.as_ref().map(|_| Default::default()));
     if knees.values().all(Option::is_none) {
         return angles;
     }
-    let rest = vec![0.0; model.coordinates().len()];
     for frame in 0..motion.times.len().min(markers.frames()) {
         let q: Vec<f64> =
             model.coordinate_ids().map(|id| motion.column(id).map_or(0.0, |column| column[frame])).collect();
-        let bodies = body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest });
+        let poses = model.poses(&q);
         for (side, knee) in knees.iter() {
             let (Some(knee), Some(found)) = (knee, &mut angles[side]) else { continue };
-            let pose = |body: BodyId| bodies[body.index()].pose;
-            let [varus, turn] = knee.at(markers, frame, pose).unwrap_or([f64::NAN; 2]);
+            let [varus, turn] = knee.at(markers, frame, |body: BodyId| poses[body.index()]).unwrap_or([f64::NAN; 2]);
             found[0].push(varus);
             found[1].push(turn);
         }
