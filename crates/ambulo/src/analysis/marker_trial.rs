@@ -11,6 +11,7 @@ use super::identity;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::{Progress, Stage};
+use super::segment_angles::knee_angles;
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
@@ -22,7 +23,7 @@ use crate::kinematics::marker_fit::{
 };
 use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
 use crate::model::marker_set::MarkerSet;
-use crate::model::{Drive, Model, Side};
+use crate::model::{BySide, Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
 use crate::motion::{Laboratory, Landmarks};
@@ -46,6 +47,9 @@ pub struct BodyInMotion {
     pub keypoints: Option<KeypointReport>,
     /// What contradicts the labels of the markers or the standing trial, one sentence each.
     pub contradictions: Vec<String>,
+    /// Varus and internal rotation of the knees from the markers of thigh and shank alone, in the frames of the
+    /// recording [rad]; `None` where they do not suffice, or where the knee of the body turns in these planes itself.
+    pub knees: BySide<Option<[Vec<f64>; 2]>>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -111,7 +115,13 @@ pub(crate) fn fit_body_to_markers(
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
-    Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+    let knees = match keypoints {
+        // Key points are joint centres, which do not show how a segment turns.
+        Some(_) => BySide::default(),
+        None => knee_angles(&subject.model, &followed, &fit.motion),
+    };
+    let moving = on_floor.body_in_motion(subject, fit, findings, progress)?;
+    Ok(BodyInMotion { keypoints, contradictions, knees, ..moving })
 }
 
 impl MarkerTrial<'_> {
@@ -202,6 +212,7 @@ impl OnFloor<'_> {
             on_plates,
             keypoints: None,
             contradictions: Vec::new(),
+            knees: BySide::default(),
         })
     }
 }

@@ -23,6 +23,8 @@ mod force_directions;
 mod force_filter;
 mod force_table;
 mod idle_forces;
+mod knee_adduction;
+mod knee_angles;
 mod laboratory_file;
 pub(crate) mod mass;
 mod measured;

@@ -16,7 +16,11 @@ const LACKING: [(&str, &str); 5] = [
     ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
     ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
     ("knee_flexion_angle", "knee flexion (no body file shows which direction is flexion)"),
-    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only flexes)"),
+    (
+        "knee_adduction_angle",
+        "knee varus and rotation (the knee of this model only flexes, and its segments have too \
+        few markers)",
+    ),
     ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
