@@ -36,7 +36,9 @@ fn markers(subject: &SubjectSummary) -> String {
     let sets =
         if subject.marker_sets.is_empty() { String::new() } else { format!(" ({})", subject.marker_sets.join(", ")) };
     let rms = subject.markers.rms_mm.map_or("-".to_owned(), |mm| format!("{mm:.1} mm"));
-    format!("{}{sets}, {rms} rms from the body; largest {} mm", errors.len(), far.join(", "))
+    let recorded = subject.markers.recorded;
+    let of = if recorded > errors.len() { format!(" of {recorded}") } else { String::new() };
+    format!("{}{of}{sets}, {rms} rms from the body; largest {} mm", errors.len(), far.join(", "))
 }
 
 fn on_plate(contact: &PlateContactSummary) -> String {

@@ -10,6 +10,7 @@ use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
+use super::marker_use::report_use;
 use super::progress::{Progress, Stage};
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
@@ -38,6 +39,8 @@ pub struct BodyInMotion {
     pub plates: Vec<PlateRecording>,
     /// The coordinates, and the errors of the fit.
     pub fit: MarkerFit,
+    /// Number of the markers of the recording; those that the body follows have errors in the fit.
+    pub recorded_markers: usize,
     /// Foot strikes and foot offs from the markers.
     pub feet: FootMotion,
     /// Which foot was on which plate.
@@ -101,6 +104,7 @@ pub(crate) fn fit_body_to_markers(
     progress.end(Stage::Body)?;
     let settings = settings_of(&subject, settings);
     let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
+    let recorded_markers = report_use(&subject, &fit, (&followed, set), findings);
     if let (Some(standing), None) = (&standing, &keypoints) {
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
@@ -111,7 +115,12 @@ pub(crate) fn fit_body_to_markers(
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
-    Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+    Ok(BodyInMotion {
+        recorded_markers,
+        keypoints,
+        contradictions,
+        ..on_floor.body_in_motion(subject, fit, findings, progress)?
+    })
 }
 
 impl MarkerTrial<'_> {
@@ -134,10 +143,11 @@ impl MarkerTrial<'_> {
         let calibrated =
             |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
         // A body that needs the motion besides the standing trial is not that of the other motions.
-        match (standing, self.bodies) {
+        let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
-        }
+        };
+        Ok(self.with_technical_markers(subject?, moving, standing, findings))
     }
 }
 
@@ -197,6 +207,7 @@ impl OnFloor<'_> {
             subject,
             laboratory: axes,
             plates,
+            recorded_markers: fit.errors.len(),
             fit,
             feet,
             on_plates,
