@@ -37,9 +37,12 @@ use crate::spatial::Vec3;
 use segment_motion::SegmentMotion;
 use std::collections::BTreeMap;
 
-/// A marker belongs to a segment if it stays this near to its place on it [m]: the limit from which a marker counts as
-/// misplaced in a fit.
+/// A marker belongs to a segment if it stays this near to its mean place on it [m]: the limit from which a marker counts
+/// as misplaced in a fit.
 const FARTHEST_M: f64 = 0.04;
+/// A marker of the motion that is further than this from where the standing trial has it was put on anew [m]: its place
+/// is taken from the motion.
+const PUT_ON_ANEW_M: f64 = 0.06;
 /// The same on trunk and arms, whose parts move on one another by centimetres where the body has no joint.
 const FARTHEST_ON_TRUNK_M: f64 = 0.06;
 /// The same while the body follows without the markers that are asked.
@@ -82,6 +85,8 @@ struct Placed {
     weight: f64,
     /// Root mean square distance from its place in the motion [m].
     distance_m: f64,
+    /// The same from its mean place in the motion [m].
+    spread_m: f64,
 }
 
 /// The markers of a motion that the body does not have, on the segments with which they move, each with its weight in a
@@ -203,10 +208,12 @@ impl Search<'_> {
         if seen.len() < LEAST_FRAMES {
             return None;
         }
-        let at = |location: Vec3| Placed { body, location, weight, distance_m: distance_m(&seen, location) };
+        let mean = seen.iter().sum::<Vec3>() / seen.len() as f64;
+        let spread_m = distance_m(&seen, mean);
+        let at = |location: Vec3| Placed { body, location, weight, distance_m: distance_m(&seen, location), spread_m };
         let standing = self.still.and_then(|still| median_point(&still.seen_from(body, name))).map(at);
-        let moving = || at(seen.iter().sum::<Vec3>() / seen.len() as f64);
-        Some(standing.filter(|placed| self.is_first || placed.distance_m <= FARTHEST_M).unwrap_or_else(moving))
+        let is_there = |placed: &Placed| self.is_first || placed.distance_m <= PUT_ON_ANEW_M;
+        Some(standing.filter(is_there).unwrap_or_else(|| at(mean)))
     }
 
     fn is_near(&self, placed: &Placed, segment: Segment) -> bool {
@@ -215,7 +222,7 @@ impl Search<'_> {
             Segment::Torso | Segment::Humerus | Segment::Forearm => FARTHEST_ON_TRUNK_M,
             _ => FARTHEST_M,
         };
-        placed.distance_m <= most_m && off_the_bone_m(self.body.model, placed.body, placed.location) <= OFF_THE_BONE_M
+        placed.spread_m <= most_m && off_the_bone_m(self.body.model, placed.body, placed.location) <= OFF_THE_BONE_M
     }
 }
 

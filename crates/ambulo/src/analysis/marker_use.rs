@@ -52,11 +52,9 @@ fn report_found(subject: &Subject, found: &[(Marker, f64)], findings: &mut Findi
         let body = marker.body.map_or("ground", |body| &bodies[body.index()].name);
         format!("`{}` on `{body}`", marker.name)
     };
-    let message = format!(
-        "{} markers were given to the segments with which they move: {}",
-        found.len(),
-        listed(found.iter().map(shown))
-    );
+    let markers = if found.len() == 1 { "1 marker was".to_owned() } else { format!("{} markers were", found.len()) };
+    let listed = listed(found.iter().map(shown));
+    let message = format!("{markers} given to the segments by how they move: {listed}");
     findings.report(Code::MarkersByMotion, message);
 }
 

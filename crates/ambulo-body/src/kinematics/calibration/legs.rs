@@ -23,6 +23,9 @@ const BENT: f64 = 0.35;
 /// Varus is measured where the knee is flexed less than this [rad]: at larger angles an error of the axis appears as
 /// varus.
 const NEARLY_STRAIGHT: f64 = 0.5;
+/// A wand further than 60 degrees from straight outwards is none, but a marker in front or behind with the same name:
+/// wands are placed within 15 to 20 degrees of the plane of the joint.
+const WAND_COSINE: f64 = 0.5;
 /// Smallest number of frames in which a leg is visible.
 const LEAST_FRAMES: usize = 3;
 
@@ -115,8 +118,8 @@ pub(super) fn find(
         let breadths = breadths(trajectories, frames, pelvis, person, side);
         let finder = Finder { trajectories, frames, side };
         let (Some(knee), Some(ankle)) = (
-            finder.method(&KNEE, breadths[0], person.measurements.radius(), assumptions),
-            finder.method(&ANKLE, breadths[1], person.measurements.radius(), assumptions),
+            finder.method((&KNEE, pelvis), breadths[0], person.measurements.radius(), assumptions),
+            finder.method((&ANKLE, pelvis), breadths[1], person.measurements.radius(), assumptions),
         ) else {
             assumptions.push(format!(
                 "the {side} leg has no markers at knee and ankle; its lengths are from the segment table"
@@ -181,7 +184,7 @@ impl Finder<'_> {
     /// The best method that the visible markers allow; its assumptions are added to the list.
     fn method(
         &self,
-        joint: &JointLandmarks,
+        (joint, pelvis): (&JointLandmarks, &Pelvis),
         (breadth, is_measured): (f64, bool),
         radius: f64,
         assumptions: &mut Vec<String>,
@@ -212,7 +215,7 @@ impl Finder<'_> {
             ));
         }
         let half = 0.5 * breadth + radius;
-        if self.together(&[joint.lateral, joint.wand]) {
+        if self.together(&[joint.lateral, joint.wand]) && self.is_wand_outside(joint, pelvis) {
             return Some(Method::Wand(joint.lateral, joint.wand, half));
         }
         let plane = if joint.name == KNEE.name {
@@ -222,6 +225,20 @@ impl Finder<'_> {
         };
         assumptions.push(format!("the {side} {name} axis is assumed {plane}: there is no medial marker and no wand"));
         Some(Method::Plane(joint.lateral, half))
+    }
+
+    /// Whether a wand lies on the outer side of its segment, within [`WAND_COSINE`] of straight outwards.
+    fn is_wand_outside(&self, joint: &JointLandmarks, pelvis: &Pelvis) -> bool {
+        let out = if self.side == Side::Right { 1.0 } else { -1.0 };
+        let cosine = |(measured, &frame): (usize, &usize)| {
+            let at = |landmark: Landmark| self.trajectories.of(landmark, self.side, frame);
+            let upper = if joint.name == KNEE.name { pelvis.hip(measured, self.side) } else { at(KNEE.lateral) };
+            let lateral = at(joint.lateral)?;
+            let along = direction(upper? - lateral)?;
+            let outwards = perpendicular(pelvis.right(measured)? * out, along)?;
+            Some(perpendicular(at(joint.wand)? - lateral, along)?.dot(&outwards))
+        };
+        median(self.frames.iter().enumerate().filter_map(cosine)).is_none_or(|cosine| cosine > WAND_COSINE)
     }
 
     /// Whether landmarks are visible together in enough frames.
