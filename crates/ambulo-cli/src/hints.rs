@@ -8,6 +8,7 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
+use ambulo::kinematics::calibration::CalibrationError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
@@ -37,6 +38,10 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
+        Code::MarkersUnused | Code::MarkersByPlace => {
+            "`ambulo info STANDING --markers mine.toml` writes the markers with their meaning; correct the file, then \
+             give it with `--markers mine.toml`"
+        }
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -146,6 +151,12 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
+        StudyError::Markers(
+            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(CalibrationError::Markers { .. }),
+        ) => Some(
+            "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
+             file, then give it with `--markers mine.toml`",
+        ),
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

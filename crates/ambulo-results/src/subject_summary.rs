@@ -53,6 +53,12 @@ pub struct MarkersSummary {
     pub regions: BTreeMap<Region, RegionSummary>,
     /// Frames in which the fit did not converge.
     pub frames_not_converged: usize,
+    /// Number of markers that the body follows.
+    #[serde(default)]
+    pub used: usize,
+    /// Number of markers of the recording.
+    #[serde(default)]
+    pub recorded: usize,
     /// Errors of each marker.
     pub errors: Vec<MarkerErrorSummary>,
 }
@@ -175,6 +181,7 @@ impl SubjectSummary {
             events: agreements(body, listed, measured),
             contradictions: body.contradictions.clone(),
             assumptions: report.map(|r| r.assumptions.clone()).unwrap_or_default(),
+            markers: MarkersSummary::new(&body.fit, regions, body.recorded_markers),
             ..SubjectSummary::of_skeleton(&body.laboratory.statement, &body.fit, regions)
         }
     }
@@ -186,7 +193,7 @@ impl SubjectSummary {
             axes: axes.to_owned(),
             turn_deg: None,
             marker_sets: Vec::new(),
-            markers: MarkersSummary::new(fit, regions),
+            markers: MarkersSummary::new(fit, regions, fit.errors.len()),
             segments: Vec::new(),
             plates: Vec::new(),
             plate_corners_m: Vec::new(),
@@ -238,7 +245,7 @@ impl SegmentSummary {
 }
 
 impl MarkersSummary {
-    fn new(fit: &MarkerFit, regions: &[RegionFit]) -> MarkersSummary {
+    fn new(fit: &MarkerFit, regions: &[RegionFit], recorded: usize) -> MarkersSummary {
         let millimetres = |m: f64| m.is_finite().then_some(1e3 * m);
         let used: Vec<f64> = fit.rms_m.iter().copied().filter(|rms| rms.is_finite()).collect();
         let errors = fit.errors.iter().map(|error| MarkerErrorSummary {
@@ -252,6 +259,8 @@ impl MarkersSummary {
             rms_mm: millimetres(used.iter().sum::<f64>() / used.len() as f64),
             regions: regions.iter().map(|fit| (fit.region, RegionSummary::new(fit))).collect(),
             frames_not_converged: fit.converged.iter().filter(|converged| !**converged).count(),
+            used: fit.errors.iter().filter(|error| error.rms_m.is_finite()).count(),
+            recorded,
             errors: errors.collect(),
         }
     }

@@ -169,6 +169,7 @@ mod study_text_table;
 mod study_timing;
 mod study_trial_list;
 mod synthetic_walk;
+mod technical_markers;
 mod times_and_distances;
 mod unchanged_results;
 mod validation;

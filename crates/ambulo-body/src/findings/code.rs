@@ -270,6 +270,20 @@ codes! {
     MarkersUncommon "markers.uncommon" Note
         "Only markers that are in both the recording and the model are fitted."
         "To use more markers, name them as in the model.";
+    MarkersByMotion "markers.by_motion" Note
+        "Markers without a known name, or that the standing trial lacks, were given to the segments with which they \
+         move."
+        "Nothing to do if the segments are right; otherwise give these markers a meaning in a marker set.";
+    MarkersByPlace "markers.by_place" Warning
+        "The known names do not suffice for a body; markers with other names were taken by their places on it."
+        "Check the landmarks in the message, and give these markers their meaning in a marker set.";
+    MarkersUnused "markers.unused" Warning
+        "The body follows fewer than 60 % of the markers of the motion."
+        "Give the other markers a meaning in a marker set; names of points that are not on the body can be left out.";
+    MarkersSegmentHardlyShown "markers.segment_hardly_shown" Warning
+        "A thigh or shank has no marker of the joint at its lower end and fewer than three others in the motion."
+        "Leave the markers of knees and ankles on the body, or put three markers on each thigh and shank, and record \
+         them in the standing trial too.";
     MarkersEnds "markers.ends" Note
         "Frames at the ends with less than half of the markers were left out."
         "Nothing to do.";
@@ -768,6 +782,9 @@ impl Code {
             self,
             Code::MarkersNotMeasured
                 | Code::MarkersSidesExchanged
+                | Code::MarkersByPlace
+                | Code::MarkersUnused
+                | Code::MarkersSegmentHardlyShown
                 | Code::MarkersMoved
                 | Code::CalibrationOtherLimbs
                 | Code::CalibrationOtherPerson

@@ -29,11 +29,12 @@ pub(super) fn print_markers(subject: &SubjectSummary) -> Result<()> {
 }
 
 fn markers(subject: &SubjectSummary) -> String {
-    let used = subject.markers.errors.iter().filter(|error| error.rms_mm.is_some()).count();
+    let (used, recorded) = (subject.markers.used, subject.markers.recorded);
+    let of = if recorded > used { format!(" of {recorded}") } else { String::new() };
     let sets =
         if subject.marker_sets.is_empty() { String::new() } else { format!(" ({})", subject.marker_sets.join(", ")) };
     let rms = subject.markers.rms_mm.map_or("-".to_owned(), |mm| format!("{mm:.1} mm"));
-    format!("{used}{sets}, {rms} rms from the body")
+    format!("{used}{of}{sets}, {rms} rms from the body")
 }
 
 fn on_plate(contact: &PlateContactSummary) -> String {

@@ -10,6 +10,7 @@ use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
+use super::marker_use::report_use;
 use super::progress::{Progress, Stage};
 use super::segment_angles::knee_angles;
 use super::subject::{BodySource, MarkerTrialError, Subject};
@@ -39,6 +40,8 @@ pub struct BodyInMotion {
     pub plates: Vec<PlateRecording>,
     /// The coordinates, and the errors of the fit.
     pub fit: MarkerFit,
+    /// Number of the markers of the recording; those that the body follows have errors in the fit.
+    pub recorded_markers: usize,
     /// Foot strikes and foot offs from the markers.
     pub feet: FootMotion,
     /// Which foot was on which plate.
@@ -105,6 +108,7 @@ pub(crate) fn fit_body_to_markers(
     progress.end(Stage::Body)?;
     let settings = settings_of(&subject, settings);
     let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
+    let recorded_markers = report_use(&subject, &fit, (&followed, set), findings);
     if let (Some(standing), None) = (&standing, &keypoints) {
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
@@ -121,7 +125,7 @@ pub(crate) fn fit_body_to_markers(
         None => knee_angles(&subject.model, &followed, &fit.motion),
     };
     let moving = on_floor.body_in_motion(subject, fit, findings, progress)?;
-    Ok(BodyInMotion { keypoints, contradictions, knees, ..moving })
+    Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, ..moving })
 }
 
 impl MarkerTrial<'_> {
@@ -144,10 +148,11 @@ impl MarkerTrial<'_> {
         let calibrated =
             |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
         // A body that needs the motion besides the standing trial is not that of the other motions.
-        match (standing, self.bodies) {
+        let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
-        }
+        };
+        Ok(self.with_technical_markers(subject?, moving, standing, findings))
     }
 }
 
@@ -207,6 +212,7 @@ impl OnFloor<'_> {
             subject,
             laboratory: axes,
             plates,
+            recorded_markers: fit.errors.len(),
             fit,
             feet,
             on_plates,

@@ -13,6 +13,7 @@ pub(crate) mod identity;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
+mod marker_use;
 mod peaks;
 mod plausibility;
 mod predicted;

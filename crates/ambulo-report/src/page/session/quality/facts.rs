@@ -90,7 +90,13 @@ fn markers(markers: &MarkersSummary) -> Vec<Judged> {
         judged(fit.rms_mm, limit_mm, plain(&label, markers.region_words(fit)))
     };
     let unsettled = none_allowed("Frames in which the marker fit did not converge", markers.frames_not_converged);
-    all.into_iter().chain(markers.regions.iter().map(of_region)).chain([unsettled]).collect()
+    // Folders of earlier versions do not know how many were recorded.
+    let used = (markers.recorded > 0).then(|| Judged {
+        allowed: Some("at least 60 %".to_owned()),
+        good: Some(markers.used as f64 >= 0.6 * markers.recorded as f64),
+        ..plain("Markers that the body follows", format!("{} of {}", markers.used, markers.recorded))
+    });
+    all.into_iter().chain(markers.regions.iter().map(of_region)).chain(used).chain([unsettled]).collect()
 }
 
 /// A count that must be zero.
