@@ -1,6 +1,6 @@
 //! Hints for errors and findings of the library: the command-line options that help.
 //!
-//! The library knows no options. Its errors and findings carry data; this table adds the hint.
+//! The library has no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
@@ -61,7 +61,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     Some(hint)
 }
 
-/// The hint for an error: that of the first of its causes that has one, and the options of the fields that it is about.
+/// The hint for an error: the hint of its first cause that has one, and the options of the fields that it is about.
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);

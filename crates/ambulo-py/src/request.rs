@@ -27,7 +27,7 @@ struct Named<'a, 'py> {
 }
 
 impl Given {
-    /// From options by their names in Python. None and the defaults of Python are left out.
+    /// Makes a request from options by their names in Python. None and the defaults of Python are left out.
     pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Given> {
         let mut request = Given::default();
         for (name, value) in options {
@@ -230,7 +230,7 @@ pub(crate) fn typed(request: &Bound<'_, PyDict>) -> PyResult<Request> {
     Request::of_value(&json(request)?).map_err(|failure| exception(request.py(), failure))
 }
 
-/// A value as JSON: paths are text, numbers may be those of NumPy.
+/// A value as JSON: paths are text; numbers may be NumPy numbers.
 fn json(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(fields) = value.cast::<PyDict>() {
         let fields = fields.iter().filter(|(_, value)| !value.is_none());

@@ -42,7 +42,7 @@ impl ClinicalGroup {
     }
 }
 
-/// Which coordinates of a model measure which movements, and their signs.
+/// Coordinates of a model that measure clinical movements, and their signs.
 #[derive(Debug, Clone)]
 pub struct ClinicalNames {
     entries: Vec<Entry>,
@@ -148,7 +148,7 @@ pub struct ClinicalQuantity {
     pub positive: &'static str,
     /// Meaning of negative values: `flexor`.
     pub negative: &'static str,
-    /// Its kind.
+    /// Kind of the quantity.
     pub group: ClinicalGroup,
     /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,

@@ -113,17 +113,18 @@ impl<'a> Curves<'a> {
         Curves { knees, ..self }
     }
 
-    /// The same without the quantities of coordinates that are not measured.
+    /// These curves without the quantities of coordinates that are not measured.
     pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
         Curves { not_measured, ..self }
     }
 
-    /// The same per another mass [kg], such as that of the one body of several trials.
+    /// These curves per another mass [kg], such as the mass of a body shared by several trials.
     pub(crate) fn per_mass(self, mass_kg: f64) -> Curves<'a> {
         Curves { mass_kg, ..self }
     }
 
-    /// `sources` are those of the loads ([`Outcome::load_sources`]): what depends on an unknown load is not a number.
+    /// The columns of the table. `sources` says where loads come from ([`Outcome::load_sources`]); values that depend
+    /// on an unknown load are NaN.
     fn columns(&self, sources: Option<&BySide<Vec<f64>>>) -> Vec<(String, Vec<f64>)> {
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
@@ -208,7 +209,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Values that depend on the load of a foot, without those of unknown loads.
+/// Values that depend on the load of a foot; NaN where the load is unknown.
 fn known(mut values: Vec<f64>, sources: Option<&[f64]>) -> Vec<f64> {
     let unknown = StanceSource::Unknown.number();
     let is_unknown = |source: &f64| source.total_cmp(&unknown).is_eq();

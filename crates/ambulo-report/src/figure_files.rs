@@ -26,7 +26,7 @@ pub fn figure_files(
     Drawn { model, analysis, reasons, angles, not_measured: &[], knees: BySide::default() }.files()
 }
 
-/// What the figures of a run show.
+/// Content of the figures of a run.
 struct Drawn<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
@@ -107,7 +107,7 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
             let own = |cycle: &&Cycle| (cycle.side, cycle.number) == (row.side, row.cycle);
             let Some(cycle) = analysis.cycles.iter().find(own) else { continue };
             let Some(degrees) = clinical_angle(angles, quantity.id, row.side) else { continue };
-            // The factor is +1 or -1, so it also converts displayed numbers back to those of the file.
+            // The factor is +1 or -1, so it also converts displayed numbers back to the numbers of the file.
             let factor = quantity.factor(analysis.mass.kg, row.side);
             row.values = over_cycle(grid, &degrees, cycle).iter().map(|x| factor * x).collect();
         }

@@ -208,8 +208,8 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
     collect(workspace, trajectory, loads, |_| true)
 }
 
-/// As [`inverse`], but of the reactions only those of joints to ground, which are the residual. The other reactions
-/// take more than half of the memory of [`inverse`]; [`ReactionReader`] gives them.
+/// As [`inverse`], but returns only the reactions of joints to ground, which are the residual. The other reactions take
+/// more than half of the memory of [`inverse`]; [`ReactionReader`] gives them.
 #[must_use]
 pub fn inverse_with_residual(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     collect(workspace, trajectory, loads, |segment| segment.parent == GROUND)
@@ -304,8 +304,8 @@ impl<'a> ReactionReader<'a> {
 /// axes.
 ///
 /// # Panics
-/// If the length of a slice of `posture` differs from the number of coordinates, or that of `wrenches` from the number
-/// of bodies.
+/// If the length of a slice of `posture` differs from the number of coordinates, or the length of `wrenches` from the
+/// number of bodies.
 pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, wrenches: &[Wrench]) -> &'w [f64] {
     let Workspace { plan, one: kernel, .. } = workspace;
     assert_eq!(wrenches.len(), plan.segments.len(), "one wrench per body");

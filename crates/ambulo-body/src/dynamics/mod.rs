@@ -5,7 +5,7 @@
 //! [`residual_reduction`] changes a recorded motion so that it agrees with measured ground forces.
 //!
 //! Constraints have several solvers: [`Method::Newton`] tries `proximal`, then `nonsmooth_newton`, then `relaxed`;
-//! [`Method::ConjugateGradient`] is the solver of the 1997 paper. docs/METHODS.md says which method when.
+//! [`Method::ConjugateGradient`] is the solver of the 1997 paper. docs/METHODS.md compares them.
 
 mod inverse;
 mod inverse_derivatives;

@@ -769,13 +769,14 @@ impl Code {
         self.entry().name
     }
 
-    /// The code of a name; `None` if there is none.
+    /// The code with this name; `None` if the name is unknown.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
     }
 
-    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    /// Whether the finding is shown before other warnings: it concerns the identity of the person, or which values are
+    /// results.
     #[must_use]
     pub fn comes_first(self) -> bool {
         matches!(

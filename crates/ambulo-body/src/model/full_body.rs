@@ -1,10 +1,9 @@
 //! The built-in full body in three dimensions: the planar figure of [`anthropometry`](super::anthropometry) with
 //! spatial joints.
 //!
-//! Bodies, masses, mass centres, inertias and soles are those of the planar figure with a toe joint for the same
-//! [`Build`]; only the joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs are
-//! those of Gait2392 and docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have
-//! the same signs.
+//! Bodies, masses, mass centres, inertias and soles equal the planar figure with a toe joint for the same [`Build`];
+//! only the joints differ. All coordinates zero is upright standing, thumbs forward. Names and signs follow Gait2392
+//! and docs/CONVENTIONS.md; s is r or l, and axes on the left are mirrored so that both sides have the same signs.
 //!
 //! | body              | coordinates, in the order of the rotations                                     | axes (right side) |
 //! |-------------------|--------------------------------------------------------------------------------|-------------------|

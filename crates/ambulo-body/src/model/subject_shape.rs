@@ -63,9 +63,9 @@ impl SolePlacement {
 /// Shape of the body of one person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubjectShape {
-    /// One per body, in the order of the model.
+    /// Shape of each segment, in the order of the model's bodies.
     pub segments: Vec<SegmentShape>,
-    /// Markers, which replace those of the figure.
+    /// Markers, which replace the figure's markers.
     pub markers: Vec<Marker>,
     /// Right and left foot.
     pub feet: [SolePlacement; 2],

@@ -231,7 +231,7 @@ pub enum MotionError {
         /// End of the recording [s].
         last_s: f64,
     },
-    /// Motion and forces with hardly any common time.
+    /// Motion and forces with almost no common time.
     #[error(
         "motion and forces have {} in common: the motion lasts from {:.3} s to {:.3} s, the forces from {:.3} s to \
          {:.3} s. hint: give both the same origin of time, or choose the forces of this trial",

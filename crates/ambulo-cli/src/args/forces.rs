@@ -164,7 +164,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) print: PrintArgs,
 }
 
-/// What is written of a run.
+/// Settings of the files that a run writes.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
     /// How angles of pelvis and hips are measured.

@@ -1,5 +1,5 @@
-//! A session of one person: trials pooled, compared with healthy people and with an earlier session, as tables and as a
-//! page.
+//! A session of one person: trials pooled, compared with healthy subjects and with an earlier session, as tables and as
+//! a page.
 //!
 //! | file | content |
 //! |---|---|
@@ -328,7 +328,7 @@ impl ComparedSession {
         self.norms.curve(quantity)
     }
 
-    /// The quantities that any cycle has and that move in it.
+    /// The quantities that change in at least one cycle.
     fn shown(&self) -> Vec<SessionQuantity> {
         let moves = |quantity: &SessionQuantity| {
             let curves = self.session.cycles.iter().filter_map(|cycle| cycle.curves.get(quantity.id));

@@ -1,5 +1,5 @@
-//! One computed trial of a session: its cycles in clinical signs, its strides, and what decides whether its cycles
-//! count.
+//! One computed trial of a session: its cycles in clinical signs, its strides, and the facts that decide whether its
+//! cycles count.
 
 use super::quantities::{FOOT_PROGRESSION, all};
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
@@ -30,7 +30,7 @@ pub struct SessionTrial {
 #[derive(Debug, Clone)]
 pub struct ComputedTrial {
     pub(super) facts: TrialFacts,
-    /// None of them is excluded yet; their trial is 0.
+    /// Cycles of the trial; none is excluded yet, and their trial number is 0.
     pub(super) cycles: Vec<SessionCycle>,
     pub(super) strides: Vec<Stride>,
     pub(super) speed_m_s: Option<f64>,
@@ -48,7 +48,7 @@ pub struct ComputedTrial {
 
 impl ComputedTrial {
     /// Takes the cycles of an outcome whose ground forces were predicted, with measured forces where plates measured
-    /// the whole stance of the cycle. Angles of pelvis and hips are those of the chosen convention, where it is
+    /// the whole stance of the cycle. Angles of pelvis and hips follow the chosen convention, where it is
     /// possible.
     #[must_use]
     pub fn of(outcome: &Outcome, chosen: Convention) -> ComputedTrial {

@@ -47,7 +47,7 @@ pub(crate) struct StepTaken<'a> {
     pub(crate) after: &'a WorldState,
     pub(crate) settings: &'a StepSettings,
     pub(crate) workspace: &'a StepWorkspace,
-    /// Whether the velocities before it are those of its start, as at the start of a scene.
+    /// Whether the velocities in `before` belong to the start of the step, as at the start of a scene.
     pub(crate) begins: bool,
 }
 
@@ -83,7 +83,7 @@ impl StepTaken<'_> {
         if !equations.solution.convergence.converged {
             return Ok(Row { state, forces });
         }
-        // Positions are those of the step to the last bit.
+        // Positions equal the positions of the step to the last bit.
         if !keeps {
             state.twists = here.twists;
         }
@@ -104,7 +104,7 @@ impl StepTaken<'_> {
     }
 
     /// Whether the row has the velocities of the step before: passive bodies that may touch. With these their energy
-    /// never rises; the mean over a collision would be that of no instant.
+    /// never rises; the mean over a collision would belong to no instant.
     fn keeps_velocities(&self) -> bool {
         let mut owners = self.world.surfaces.iter().map(|surface| surface.owner);
         let first = owners.next();

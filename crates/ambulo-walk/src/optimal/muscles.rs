@@ -244,7 +244,7 @@ impl<'a> MuscleTerms<'a> {
     }
 }
 
-/// Share of the cycle by which the cycle of a coordinate's leg is ahead of that of the right leg.
+/// Share of the cycle by which the cycle of a coordinate's leg is ahead of the cycle of the right leg.
 pub(super) fn ahead_of(name: &str) -> f64 {
     if Side::split_name(name).is_some_and(|(side, _)| side == Side::Left) { 0.5 } else { 0.0 }
 }

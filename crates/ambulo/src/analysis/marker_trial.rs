@@ -266,7 +266,7 @@ fn during(poses: &SegmentPoses, points: &MarkerRecording) -> SegmentPoses {
     poses.cut(poses.times.partition_point(|time| *time < first), points.frames())
 }
 
-/// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
+/// Gives coordinates that no marker determines, such as toe angles, the default value of the model.
 fn use_defaults_without_markers(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     /// Most names in a message.
     const MOST: usize = 6;

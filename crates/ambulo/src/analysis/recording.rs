@@ -72,7 +72,7 @@ pub struct Analysis {
 pub struct Mass {
     /// Mass [kg].
     pub kg: f64,
-    /// Where it comes from.
+    /// Source of the mass.
     pub source: MassSource,
 }
 

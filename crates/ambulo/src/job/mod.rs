@@ -5,11 +5,11 @@
 //!    |
 //!   read    the caller reads the files; kinds of recording are recognised, contradictions are rejected
 //!    v
-//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
+//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files read
 //! ```
 //!
-//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of
-//! a visit have.
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] chooses the body and the mass for the
+//! trials of a visit have.
 //!
 //! The joint moments of a recording in a laboratory:
 //!
@@ -169,7 +169,7 @@ pub struct ForceFiles {
     pub left: Option<FootColumns>,
 }
 
-/// What is read or computed once for several jobs of a person. Clones share it.
+/// Data that are read or computed once for several jobs of a person. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Shared {
     standing_trials: StandingTrials,

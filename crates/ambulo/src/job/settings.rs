@@ -91,7 +91,7 @@ impl Processing {
 
     fn marker_fit(&self, tracked: Option<TrackedTasks>) -> FitSettings {
         let defaults = FitSettings::default();
-        // A set-up asks for the fit of OpenSim.
+        // With a set-up, markers are fitted as OpenSim does.
         let has_setup = tracked.is_some();
         FitSettings {
             // Stated weights are kept.
@@ -129,7 +129,7 @@ pub(super) fn read(job: &Job, tracked: Option<TrackedTasks>, files: &mut dyn Fil
         comparison_filter: of_forces.unwrap_or(settings.comparison_filter),
         window: own.window,
         rate_hz: own.rate_hz,
-        // A calibration corrects predicted forces alone, so it asks for them.
+        // A calibration corrects predicted forces alone, so forces are predicted.
         ground: match own.ground {
             GroundSettings::MeasuredOrPredicted if job.person.is_some() => GroundSettings::Predicted,
             ground => ground,

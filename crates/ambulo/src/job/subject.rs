@@ -9,7 +9,7 @@ use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};
 use std::path::Path;
 
-/// What the file should be.
+/// Description of the expected file.
 const NAME: &str = "a subject of AddBiomechanics (.b3d)";
 /// Bytes that show what another file is.
 const CONTENT_BYTES: usize = 4096;

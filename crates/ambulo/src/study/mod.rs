@@ -6,8 +6,9 @@
 //!           with measured forces and what the laboratory stated
 //! Settings  filters, time range, how the ground forces are found
 //!    |
-//!   run  -> markers, sensors or skeleton to a body in motion -> smoothing -> ground forces (measured, predicted or tracked)
-//!    |      -> inverse dynamics -> events, cycles, body mass -> checks -> residual reduction -> verdict
+//!   run  -> markers, sensors or skeleton to a body in motion -> smoothing
+//!    |      -> ground forces (measured, predicted or tracked) -> inverse dynamics -> events, cycles, body mass
+//!    |      -> checks -> residual reduction -> verdict
 //!    v
 //! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
 //! ```

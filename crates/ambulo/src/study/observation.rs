@@ -44,17 +44,17 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
-    /// Whether the forces are those of the force plates of the recording.
+    /// Whether the forces come from the force plates of the recording.
     pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
     pub(super) device: Option<Table>,
-    /// Whether the mass is that of a given model alone: none is stated, and no load was added.
+    /// Whether the mass comes from a given model alone: none is stated, and no load was added.
     pub(super) has_models_mass: bool,
 }
 
-/// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+/// A motion as observed. It is stored separately from the body, because a long motion is dropped after smoothing.
 #[derive(Clone)]
 pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.
@@ -63,7 +63,7 @@ pub(super) enum ObservedMotion {
     Complete(Trajectory),
 }
 
-/// Data of a recording besides the motion.
+/// Data of a recording other than the motion.
 struct Statements {
     forces: MeasuredForces,
     device: Option<Table>,
@@ -83,7 +83,7 @@ pub(super) enum Origin {
     },
 }
 
-/// A body that followed markers, and what the files state besides.
+/// A body that followed markers, and further statements of the files.
 pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
@@ -107,7 +107,7 @@ impl Observation {
         Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
     }
 
-    /// Whether a mass that force plates measure replaces that of the model.
+    /// Whether a mass that force plates measure replaces the mass of the model.
     pub(super) fn takes_weighed_mass(&self) -> bool {
         self.has_models_mass && (!self.forces.is_empty() || self.known_mass.standing.is_some())
     }
@@ -128,7 +128,7 @@ impl Observation {
         Ok(())
     }
 
-    /// Whether forces are predicted: if that is wanted, or if no forces were measured.
+    /// Whether forces are predicted: on request, or if no forces were measured.
     pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
         match (&self.origin, settings.ground) {
             (Origin::Simulation { .. }, _) | (_, GroundSettings::NoContact) => false,
@@ -231,7 +231,7 @@ impl Statements {
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
         let model = self.stated.applied(model, findings)?;
-        // A load makes nobody stronger.
+        // A carried load does not change the person's strength.
         let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
         let model = self.loaded(model)?;
         self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)

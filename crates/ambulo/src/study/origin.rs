@@ -69,6 +69,6 @@ pub struct TrackedMarkers {
     pub regions: Vec<RegionFit>,
     /// Foot strikes and foot offs that the file lists.
     pub listed_events: Vec<Event>,
-    /// Those that plates measured.
+    /// Events that plates measured.
     pub measured_events: Vec<Event>,
 }

@@ -70,7 +70,7 @@ pub struct Processing {
     pub smoother: Smoother,
     /// Low-pass of the measured forces.
     pub force_filter: Option<LowPass>,
-    /// The time range that was asked for, or that long gaps of markers leave.
+    /// The requested time range, or the range that long gaps of markers leave.
     pub window: Window,
 }
 
@@ -125,8 +125,8 @@ impl PredictedGround {
 }
 
 impl Outcome {
-    /// The analysis that tables and figures show: that of the measured forces, with predicted ones in the stances that
-    /// were not measured. Events, cycles, mass and residual are those of [`Outcome::analysis`].
+    /// The analysis that tables and figures show: of the measured forces, with predicted ones in the stances that were
+    /// not measured. Events, cycles, mass and residual come from [`Outcome::analysis`].
     #[must_use]
     pub fn complete(&self) -> &Analysis {
         self.completed.as_ref().unwrap_or(&self.analysis)

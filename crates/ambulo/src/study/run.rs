@@ -136,8 +136,8 @@ fn road(
     Ok(outcome)
 }
 
-/// Forces and body mass; where force plates carry another mass than that of a given model, and none is stated, those of
-/// the model with the weighed mass.
+/// Forces and body mass. If force plates carry another mass than a given model has, and no mass is stated, the model
+/// with the weighed mass is used.
 fn weighed(
     mut observed: Observation,
     motion: ObservedMotion,
@@ -172,7 +172,7 @@ struct Computed {
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
-    /// What force plates say about the clock.
+    /// The clock of the recording by its force plates.
     timing: PlateTiming,
     directions: ForceDirections,
     tracking: Option<Tracking>,
@@ -281,7 +281,7 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     mass
 }
 
-/// What measured forces say about the clock, also those that a prediction is compared with; a fault is reported.
+/// Checks the clock against measured forces, also those that a prediction is compared with; reports a fault.
 fn plate_timing(
     observed: &Observation,
     analysis: &Analysis,
@@ -336,7 +336,7 @@ fn stances<'p>(
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
 
-/// The clock by the gait, for activities in which people take steps on one level.
+/// The clock by the gait, for activities with steps on one level.
 fn tempo_of_gait(
     body: &Model,
     person: &Person,
@@ -513,7 +513,7 @@ fn processing(
     }
 }
 
-/// The time to analyse if none is asked for: all of it, or the longest time without a gap in what the markers show.
+/// The time to analyse by default: all of it, or the longest time without a long gap of markers.
 fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
     let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_without_gap_s()) else {
         return Window::default();
@@ -581,7 +581,7 @@ fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings:
     }
 }
 
-/// Residual reduction, if it is wanted. Predicted forces scale with the mass of the body, so they cannot correct it.
+/// Residual reduction, if requested. Predicted forces scale with the mass of the body, so they cannot correct it.
 fn residual_reduced(
     model: &Model,
     analysis: Analysis,

@@ -228,7 +228,7 @@ impl Model {
     }
 }
 
-/// Rounds the axes of the body to those of the world if they are close: hips of models are rarely exactly level.
+/// Rounds the axes of the body to the world axes if they are close: hips of models are rarely exactly level.
 fn nearest_axes(axes: &Mat3) -> Mat3 {
     /// Cosine of 25 degrees.
     const NEAR: f64 = 0.9;
@@ -244,7 +244,7 @@ fn neutral_value(coordinate: &Coordinate) -> f64 {
     if has_zero { 0.0 } else { coordinate.default_value }
 }
 
-/// Side of each coordinate: that of the body that it moves, otherwise the one in its name.
+/// Side of each coordinate: the side of the body that it moves, otherwise the side in its name.
 fn coordinate_sides(model: &Model, body_sides: &[Option<Side>]) -> Vec<Option<Side>> {
     let mut sides: Vec<Option<Side>> = model.coordinates.iter().map(|c| Side::of_name(&c.name)).collect();
     for (body, side) in model.bodies.iter().zip(body_sides).filter(|(_, side)| side.is_some()) {

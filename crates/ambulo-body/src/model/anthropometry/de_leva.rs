@@ -5,7 +5,7 @@
 //! mean lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a value. The
 //! trunk is measured from suprasternale, the head from vertex to mid-gonion; the neck between them closes the stature
 //! and has no mass of its own (it is in the head's and the upper trunk's).
-//! The foot's longitudinal axis runs from heel to toe; its sagittal axis, that of a pointed foot, is then the vertical.
+//! The foot's longitudinal axis runs from heel to toe; its sagittal axis (of a pointed foot) is then the vertical.
 
 use super::dimensions::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
 use super::proportions::{Lengths, Proportions, RigidPart, Row};

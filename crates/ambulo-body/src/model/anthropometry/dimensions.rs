@@ -20,7 +20,7 @@ pub(crate) const FOOT_WIDTH: f64 = 0.055;
 pub(crate) const ANKLE_HEIGHT: f64 = 0.039;
 /// 35 mm at 1.80 m: the heel sphere of OpenSim Moco's `2D_gait.osim`; others have 30 to 50 mm.
 pub(super) const HEEL_RADIUS: f64 = 0.035 / 1.80;
-/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and those of Falisse 2022 (32 mm).
+/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and the spheres of Falisse 2022 (32 mm).
 pub(super) const BALL_RADIUS: f64 = 0.025 / 1.80;
 /// 15 mm at 1.80 m: the front sphere of `2D_gait.osim`.
 pub(super) const TOE_RADIUS: f64 = 0.015 / 1.80;

@@ -3,7 +3,7 @@
 //! A figure moves in a plane but has three-dimensional segments: hinges about z, hips and shoulders at their width. All
 //! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground
 //! y = 0. Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and
-//! the axes of the world in that posture. Signs are those of docs/CONVENTIONS.md.
+//! the axes of the world in that posture. Signs follow docs/CONVENTIONS.md.
 //!
 //! | body              | joint to its parent | coordinate                              |
 //! |-------------------|---------------------|-----------------------------------------|
@@ -65,7 +65,7 @@ use super::{BySide, Model, ModelError, Side};
 use crate::numerics::Shown;
 use crate::spatial::InertiaError;
 
-/// Range of body masses [kg]: from infants to the heaviest people who walk.
+/// Range of body masses [kg]: from infants to the heaviest persons who walk.
 const MASS_RANGE: [f64; 2] = [2.0, 300.0];
 /// Range of statures [m].
 const HEIGHT_RANGE: [f64; 2] = [0.4, 2.5];
@@ -148,7 +148,7 @@ pub struct Human {
     pub soles: Vec<ContactSphere>,
     /// Lengths [m].
     pub dimensions: Dimensions,
-    /// Its settings.
+    /// Settings of the figure.
     pub build: Build,
 }
 

@@ -56,7 +56,7 @@ pub(super) struct Proportions {
     pub(super) forearm: RigidPart,
     /// Without mass if it is included in the forearm.
     pub(super) hand: RigidPart,
-    /// Below the lumbar joint, relative to mid-hip; empty for an undivided trunk.
+    /// Parts below the lumbar joint, relative to mid-hip; empty for an undivided trunk.
     pub(super) pelvis: Vec<RigidPart>,
     /// Trunk above the lumbar joint, relative to mid-hip.
     pub(super) torso: Vec<RigidPart>,

@@ -64,7 +64,7 @@ impl Segment {
     }
 
     /// The body of the segment in the model of the full body, by the name that [`crate::model::full_body`] gives it:
-    /// the anatomy of a model knows no arms. `side` is used for paired segments only.
+    /// the anatomy of a model has no arms. `side` is used for paired segments only.
     #[must_use]
     pub fn body(self, model: &Model, side: Option<Side>) -> Option<BodyId> {
         let stem = match self {

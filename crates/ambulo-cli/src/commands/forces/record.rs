@@ -1,6 +1,6 @@
 //! A job as the text that the id of its run is made from.
 //!
-//! The form is that of all earlier runs, whose ids would change with it. Outputs and printing are left out where they
+//! The form must not change: the ids of earlier runs depend on it. Outputs and printing are left out where they
 //! do not matter.
 
 use crate::args::Outputs;

@@ -188,7 +188,7 @@ fn scaled(values: &[f64], factor: f64, block: &mut Block) -> Series {
     block.add(&values.iter().map(|x| factor * x).collect::<Vec<_>>())
 }
 
-/// Where to find a column over time.
+/// Place of a column over time.
 struct Place<'a> {
     table: &'a Table,
     file: &'static str,

@@ -24,7 +24,7 @@ const LACKING: [(&str, &str); 5] = [
     ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
-/// Of long recordings, not all instants are drawn.
+/// Sentence about a long recording of which not all instants are drawn.
 fn thinned(results: &Results) -> String {
     let (step, drawn) = (results.step, results.grid.frames);
     format!(

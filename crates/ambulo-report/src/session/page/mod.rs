@@ -1,4 +1,4 @@
-//! The page of a session: one file that loads nothing.
+//! The page of a session: one file that needs no other file.
 
 mod figures;
 mod sections;

@@ -187,7 +187,7 @@ pub(super) fn trials(session: &Session) -> Section {
     Section { title: "Trials", table, note }
 }
 
-/// Cycles that are in no mean, and those that are far from the others.
+/// Excluded cycles, and outliers among the counted ones.
 pub(super) fn excluded(session: &Session) -> Section {
     let mut table = TextTable::new(&["trial", "side", "cycle", "in the means", "reason"]);
     let found = session.representative();

@@ -208,7 +208,7 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
     range(&means)
 }
 
-/// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward
+/// First and last instant of the longest time in which no foot is on the ground and the motion needs almost no upward
 /// force [s].
 fn longest_flight(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls, edge: usize) -> Option<[f64; 2]> {
     let (grid, up) = (trajectory.grid(), model.up());

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// Above this residual force [body weights, rms], motion, body and ground forces do not fit together: the quality is
-/// doubtful, and no motion is called feasible. Walks of seven people with every foot on a plate have 10 to 13 %
+/// doubtful, and no motion is called feasible. Walks of seven subjects with every foot on a plate have 10 to 13 %
 /// (tests/quality.rs), with the plates of another person 47 to 98 %.
 pub const LARGE_RESIDUAL_BW: f64 = 0.2;
 

@@ -14,7 +14,7 @@
 //! In 194 plates of 111 clean recordings (9 laboratories) d is 3 to 29 mm, r₁ 0.85 to 1, r₂ 0.5 to 1 with one exception
 //! each, and the true order has the least cost of the eight in all of them.
 //!
-//! An order is changed only if that of the file fails clearly, also by its centre of pressure: a channel with the wrong
+//! An order is changed only if the file's order fails clearly, also by its centre of pressure: a channel with the wrong
 //! sign alone is no matter of corners. All plates are judged together first, because a laboratory makes the same error
 //! with all of them, then each alone.
 //! Pinned by: tests/plate_orders.rs
@@ -41,7 +41,7 @@ const LEADS: f64 = 0.5;
 /// An order is right below this cost and this distance [m].
 const RIGHT: f64 = 12.0;
 const RIGHT_M: f64 = 0.05;
-/// The right order has a cost that is less than that of the next by this.
+/// The cost of the right order is at least this much below the cost of the next order.
 const DISTINCT: f64 = 1.0;
 /// Distances are counted up to this [m].
 const FARTHEST_M: f64 = 0.4;
@@ -49,10 +49,10 @@ const FARTHEST_M: f64 = 0.4;
 const STEP_S: [f64; 2] = [0.15, 1.6];
 /// Loads from this share of the largest force of the plates show the centre of pressure.
 const SOLID: f64 = 0.3;
-/// Samples that are looked at in a step.
+/// Number of samples evaluated per step.
 const SAMPLES: usize = 40;
 
-/// How the loads of some plates lie with their corners in one order.
+/// Fit of the loads of some plates to the feet, with one order of corners.
 #[derive(Debug, Clone, Copy, Default)]
 struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
@@ -109,7 +109,7 @@ impl Fit {
 /// A plate with loads of whole steps.
 struct Loaded {
     plate: usize,
-    /// One per order.
+    /// Fits, one per order of the corners.
     fits: Vec<Fit>,
     /// Whether its force was found to be that of the foot on the plate, so that all signs were reversed.
     is_reversed: bool,
@@ -154,7 +154,7 @@ fn loaded(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, soli
     fits.filter(|fits| fits.iter().all(|fit| fit.count > 0.0)).map(|fits| Loaded { plate, fits, is_reversed: false })
 }
 
-/// The order that is right for all of these plates where that of the file fails, and whether it is the only one.
+/// The order that is right for all of these plates where the file's order fails, and whether it is the only one.
 fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let is_right = |order: &usize| plates.iter().all(|plate| plate.fits[*order].is_right());
     // The centre of pressure runs from heel to toe; no wrong sign of a force turns its way round.
@@ -214,7 +214,7 @@ fn excerpt(plate: &PlateRecording, samples: &[usize]) -> PlateRecording {
     }
 }
 
-/// How the loads of all samples lie.
+/// Fit of the loads of all samples.
 fn fit(feet: &FeetInMotion<'_>, plate: &PlateRecording) -> Fit {
     let mut fit = Fit::default();
     for i in 0..plate.times.len() {

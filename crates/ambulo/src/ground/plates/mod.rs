@@ -105,8 +105,8 @@ pub(crate) struct SilentStance {
     pub span: [f64; 2],
 }
 
-/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without
-/// cross-talk of one plate in another.
+/// Corrects plates by the feet on them: puts the corners into the order with which the loads are under the feet, and
+/// removes cross-talk between plates.
 #[must_use]
 pub fn plates_under_feet(
     markers: &MarkerRecording,

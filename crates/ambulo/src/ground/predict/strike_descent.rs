@@ -21,12 +21,12 @@ pub const USUAL: f64 = 0.027;
 /// v₁, the descent from which on it makes no further difference [√(g L)]: 0.21 m/s of an adult.
 pub const MOST: f64 = 0.07;
 
-/// When and at which height a stance begins.
+/// Time and height at which a stance begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
     /// `None` where the recording begins with the foot on the ground [s].
     pub time_s: Option<f64>,
-    /// Of the floor [m].
+    /// Height of the floor [m].
     pub height_m: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct Strike {
 pub struct CenterVelocity<'a> {
     /// Times of the frames.
     pub grid: TimeGrid,
-    /// One entry per frame [m/s].
+    /// Velocity of the mass centre, one entry per frame [m/s].
     pub velocity: &'a [Vec3],
 }
 
