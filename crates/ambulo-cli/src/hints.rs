@@ -113,6 +113,7 @@ fn option(field: Field) -> Option<&'static str> {
         Field::Gap => "`--max-gap S`",
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
+        Field::Hip => "`--hip harrington|hara|bell|plug-in-gait`",
         Field::ResidualReduction => "`--consistent`",
     };
     Some(option)

@@ -3,10 +3,11 @@
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
 use ambulo::findings::word;
 use ambulo::ground::plates::{ContactQuality, PlateContact};
-use ambulo::kinematics::calibration::SegmentScale;
+use ambulo::kinematics::calibration::{HipCentres, SegmentScale};
 use ambulo::kinematics::marker_fit::MarkerFit;
 use ambulo::model::{Region, Side};
 use ambulo::motion::PlateRecording;
+use ambulo::spatial::Vec3;
 use ambulo::study::{RegionFit, TrackedMarkers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -24,6 +25,9 @@ pub struct SubjectSummary {
     pub marker_sets: Vec<String>,
     /// Quality of the marker fit.
     pub markers: MarkersSummary,
+    /// Hip centres of the built-in body; left out if it was not calibrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hips: Option<HipsSummary>,
     /// Sizes of the segments of the built-in body.
     pub segments: Vec<SegmentSummary>,
     /// Which foot loaded which plate, and when.
@@ -40,6 +44,21 @@ pub struct SubjectSummary {
     pub contradictions: Vec<String>,
     /// Assumptions of the built-in body about this person, in sentences.
     pub assumptions: Vec<String>,
+}
+
+/// Hip centres of the built-in body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HipsSummary {
+    /// The name of a regression (`--hip`), `functional` or `recorded`.
+    pub method: String,
+    /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded ones.
+    pub expected_error_mm: Option<f64>,
+    /// Place of the right one: forward, up and right from midway between the anterior spines, in axes through the
+    /// spines [mm]. Recorded ones: from midway between both.
+    pub right_mm: [f64; 3],
+    /// Place of the left one [mm].
+    pub left_mm: [f64; 3],
 }
 
 /// Quality of the marker fit.
@@ -174,6 +193,7 @@ impl SubjectSummary {
         SubjectSummary {
             turn_deg: body.laboratory.turn_deg,
             marker_sets: body.subject.sets.clone(),
+            hips: report.map(|report| HipsSummary::new(&report.hips)),
             segments: segments.iter().map(SegmentSummary::new).collect(),
             plates: plate_contacts(body),
             plate_corners_m: body.plates.iter().map(PlateCornersSummary::new).collect(),
@@ -194,6 +214,7 @@ impl SubjectSummary {
             turn_deg: None,
             marker_sets: Vec::new(),
             markers: MarkersSummary::new(fit, regions, fit.errors.len()),
+            hips: None,
             segments: Vec::new(),
             plates: Vec::new(),
             plate_corners_m: Vec::new(),
@@ -241,6 +262,18 @@ impl PlateCornersSummary {
 impl SegmentSummary {
     fn new(scale: &SegmentScale) -> SegmentSummary {
         SegmentSummary { body: scale.body.clone(), factor: scale.factor, measured: scale.is_measured }
+    }
+}
+
+impl HipsSummary {
+    fn new(hips: &HipCentres) -> HipsSummary {
+        let millimetres = |centre: Vec3| centre.map(|length| 1e3 * length).into();
+        HipsSummary {
+            method: hips.method.to_owned(),
+            expected_error_mm: hips.expected_error_m.map(|error| 1e3 * error),
+            right_mm: millimetres(hips.centres_m.right),
+            left_mm: millimetres(hips.centres_m.left),
+        }
     }
 }
 

@@ -87,6 +87,7 @@ mod ground_tail;
 mod ground_unilateral;
 mod ground_unknowns;
 mod ground_zero_moment_point;
+mod hip_centres;
 mod identities;
 mod identity;
 mod independent;

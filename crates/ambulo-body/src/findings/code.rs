@@ -297,6 +297,9 @@ codes! {
         "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are \
          approximate there, or have no values."
         "Correct markers that jump or have wrong labels, or leave those times out.";
+    MarkersRefitted "markers.refitted" Note
+        "The body did not follow the markers at first; another start was used, or all frames were fitted together."
+        "Check the distances of the markers; correct markers that jump or have wrong labels.";
     MarkersSwap "markers.swap" Warning
         "Two markers had exchanged labels at some times and were exchanged back."
         "Correct the labels.";
@@ -348,6 +351,20 @@ codes! {
     CalibrationNotStanding "calibration.not_standing" Warning
         "The person moves in most of the standing trial; all of its frames were used."
         "Use a trial in which the person stands still, or no standing trial.";
+    CalibrationMovement "calibration.movement" Note
+        "A movement of the person shows the centre of a hip or the axis of a knee, which the body has."
+        "Nothing to do.";
+    CalibrationMovementRefused "calibration.movement_refused" Warning
+        "The movement does not show the centre of a hip or the axis of a knee; that of the markers was used."
+        "Record a movement of the hips in two planes, of at least 20 degrees each, and of the knees, of at least 45 \
+         degrees, with two markers on each thigh and shank.";
+    CalibrationKneeAxis "calibration.knee_axis" Note
+        "The axis of a knee was chosen by the least cross-talk."
+        "Nothing to do.";
+    CalibrationCrossTalk "calibration.cross_talk" Warning
+        "Varus of a knee follows its flexion: the axis that its markers show is not that about which it bends."
+        "Check the markers of the epicondyles and the wand of the thigh, find the axis by a movement, or choose the axis \
+         with the least cross-talk.";
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";

@@ -22,7 +22,7 @@ use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
 use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
-use crate::kinematics::calibration::{self, BodyMeasurements};
+use crate::kinematics::calibration::{self, BodyMeasurements, JointCentres};
 use crate::kinematics::retarget::retarget;
 use crate::kinematics::sensor_fit::{SensorTrial, fit_sensors};
 use crate::model::anthropometry::Build;
@@ -461,7 +461,7 @@ impl Statements {
                 BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
-                person = markers.person()?;
+                person = markers.person(settings)?;
                 BodySource::BuiltIn { person: &person, set: set.as_ref() }
             }
             MarkerBody::Calibrated(subject) => BodySource::Calibrated(subject),
@@ -578,7 +578,7 @@ impl MarkerSource {
     }
 
     /// Measurements of the person, for the built-in body.
-    fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
+    fn person(&self, settings: &Settings) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let still = || standing.as_ref().map(|standing| -> &LaboratoryFile { standing });
@@ -587,7 +587,10 @@ impl MarkerSource {
             table: *table,
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
-            measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
+            measurements: BodyMeasurements {
+                joints: JointCentres { hip: settings.hip, ..JointCentres::default() },
+                ..BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name)))
+            },
         })
     }
 }

@@ -64,7 +64,8 @@ pub(super) fn assemble(
     let report = CalibrationReport {
         sets: trajectories.sets.to_vec(),
         height_m: generic.dimensions.height,
-        hip_width_m: parts.pelvis.hip_width,
+        hip_width_m: parts.pelvis.hip_width(),
+        hips: parts.pelvis.hips.clone(),
         segments: scales,
         markers: places,
         assumptions,
@@ -194,8 +195,7 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
     let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
     set(Segment::Torso, None, plain(parts.trunk.factor, lumbar));
     for side in Side::BOTH {
-        let out = if side == Side::Right { 0.5 } else { -0.5 };
-        let hip = Vec3::z() * (out * parts.pelvis.hip_width);
+        let hip = parts.pelvis.hip_in_body(side);
         let (thigh, shank, varus) =
             parts.legs[side].as_ref().map_or((d.thigh, d.shank, 0.0), |l| (l.thigh, l.shank, l.varus));
         let foot = &parts.feet[side];
@@ -252,7 +252,7 @@ fn dimensions(generic: &Dimensions, parts: &Parts<'_>) -> Dimensions {
         heel_radius: generic.heel_radius * foot,
         ball_radius: generic.ball_radius * foot,
         toe_radius: generic.toe_radius * foot,
-        hip_width: parts.pelvis.hip_width,
+        hip_width: parts.pelvis.hip_width(),
         shoulder_width: right.z - left.z,
         shoulder_height: generic.lumbar_height.unwrap_or(0.0) + 0.5 * (right.y + left.y),
         upper_arm: mean(&|side| arm(side).map_or(generic.upper_arm, |arm| arm.upper)),

@@ -8,7 +8,7 @@
 //! | part | method |
 //! |---|---|
 //! | pelvis | axes through the iliac spines, rotated back by the pelvic tilt of upright standing |
-//! | hip centre | regression of Harrington 2007 on width and depth of the pelvis between its markers |
+//! | hip centre | a regression on the size of the pelvis or the legs (`hip_centre`), or as a movement showed it |
 //! | knee | midway between the epicondyles; otherwise half the knee width inside the lateral marker, perpendicular to the line to the hip, in the plane of the wand (construction of Plug-in-Gait); without a wand, in the frontal plane of the pelvis |
 //! | ankle | the same with the malleoli and the wand of the shank; without one, in the plane of the knee axis |
 //! | thigh, shank | y from the lower to the upper joint, z along the part of the knee axis that is perpendicular to y |
@@ -24,16 +24,17 @@
 //! On a walk the marker positions are then refined with the joints by least squares (`refinement`): a knee that only
 //! flexes shows the direction of its axis, independent of wand and epicondyle.
 //!
-//! Sources: Harrington, Zavatsky, Lawson, Yuan, Theologis 2007, J Biomech 40:595 (unverified except the numbers);
+//! Sources: hip centres: `hip_centre`;
 //! Kadaba 1990 and Davis 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing
 //! pelvis: see [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
-//! Not handled: functional joint centres; shoulder girdles that move; braces.
+//! Not handled: shoulder girdles that move; braces.
 //! Pinned by: tests/calibration.rs
 
 mod assembly;
 pub(crate) mod axes;
 mod error;
 mod feet;
+mod hip_centre;
 mod landmark_trajectories;
 pub(crate) mod legs;
 mod moving_parts;
@@ -47,12 +48,13 @@ mod upright;
 
 pub use axes::angles_zxy;
 pub use error::CalibrationError;
+pub use hip_centre::HipRegression;
 pub(in crate::kinematics) use legs::stature;
 #[doc(hidden)]
 pub use pelvis::hip_centres;
-pub use person::{BodyMeasurements, PersonMeasurements};
+pub use person::{BodyMeasurements, JointCentres, PersonMeasurements};
 pub use reference::Trial;
-pub use report::{CalibrationReport, MarkerPlacement, SegmentScale};
+pub use report::{CalibrationReport, HipCentres, MarkerPlacement, SegmentScale};
 pub use upright::assume_upright_trunk;
 
 use crate::findings::{Code, Findings};
@@ -121,7 +123,7 @@ pub fn calibrate(
     let trajectories = LandmarkTrajectories::new(recording, recognised);
     let frames = reference::frames(&trajectories, trial, findings);
     let mut assumptions = Vec::new();
-    let pelvis = pelvis::find(&trajectories, &frames)?;
+    let pelvis = pelvis::find(&trajectories, &frames, person, &mut assumptions)?;
     let legs = legs::find(&trajectories, &frames, &pelvis, person, &mut assumptions)?;
     let height = match person.height {
         Some(height) => height,
