@@ -176,6 +176,7 @@ pub(crate) fn last(path: &Path) -> String {
 /// Reports the remarks of a reader as findings.
 pub(crate) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
-        findings.report(Code::FileOdd, format!("{path}: {remark}"));
+        let code = if remark.is_about_clock { Code::MotionClock } else { Code::FileOdd };
+        findings.report(code, format!("{path}: {remark}"));
     }
 }

@@ -73,6 +73,12 @@ pub struct CalibrateRequest {
     /// Trials of one person walking over force plates.
     #[serde(deserialize_with = "json::sources")]
     pub trials: Vec<PathBuf>,
+    /// Tables of measured forces, one per trial; none: the force plates in the trials.
+    #[serde(default)]
+    pub tables: Vec<PathBuf>,
+    /// External loads of OpenSim, one per trial, or none.
+    #[serde(default)]
+    pub loads: Vec<PathBuf>,
     /// Person and settings of every trial.
     #[serde(default)]
     pub job: Job,
@@ -145,7 +151,33 @@ impl CalibrateRequest {
     /// The request for these trials.
     #[must_use]
     pub fn of(trials: Vec<PathBuf>, job: Job) -> CalibrateRequest {
-        CalibrateRequest { trials, job, output: CalibrateRequest::output() }
+        let output = CalibrateRequest::output();
+        CalibrateRequest { trials, tables: Vec::new(), loads: Vec::new(), job, output }
+    }
+
+    /// The job of each trial, with its measured forces.
+    pub(crate) fn jobs(&self) -> Result<Vec<Job>> {
+        for (what, files) in [("tables of forces", &self.tables), ("files of external loads", &self.loads)] {
+            if !files.is_empty() && files.len() != self.trials.len() {
+                let (found, trials) = (files.len(), self.trials.len());
+                return Err(anyhow!(
+                    "found {found} {what} for {trials} trials; expected one per trial, in their order"
+                ));
+            }
+        }
+        let job = |(number, trial): (usize, &PathBuf)| {
+            let mut forces = self.job.forces.clone();
+            forces.table = self.tables.get(number).cloned().or(forces.table);
+            forces.loads = self.loads.get(number).cloned().or(forces.loads);
+            Job { recording: Some(trial.clone()), forces, ..self.job.clone() }
+        };
+        Ok(self.trials.iter().enumerate().map(job).collect())
+    }
+
+    /// Files that are read.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let own = self.trials.iter().chain(&self.tables).chain(&self.loads).map(PathBuf::as_path);
+        own.chain(self.job.files())
     }
 }
 
@@ -315,9 +347,7 @@ impl Request {
     fn files(&self) -> Vec<PathBuf> {
         let named: Vec<Option<&Path>> = match &self.0 {
             Verb::Forces(request) => request.job.files().map(Some).collect(),
-            Verb::Calibrate(request) => {
-                request.trials.iter().map(PathBuf::as_path).chain(request.job.files()).map(Some).collect()
-            }
+            Verb::Calibrate(request) => request.files().map(Some).collect(),
             Verb::Validate(args) => vec![Some(&args.folder), args.markers.as_deref().map(Path::new)],
             Verb::Batch(request) => vec![Some(&request.own.source), Some(&request.own.output)],
             Verb::Session(request) => {

@@ -118,12 +118,24 @@ pub struct Remark {
     pub line: Option<usize>,
     /// Found value and its interpretation.
     pub message: String,
+    /// Whether the file contradicts itself on its frame rate, on which every speed and force depends.
+    pub is_about_clock: bool,
 }
 
 impl Remark {
     /// A remark on the whole file, or on a place without a line number.
     pub(crate) fn of_file(message: impl Into<String>) -> Remark {
-        Remark { line: None, message: message.into() }
+        Remark { line: None, message: message.into(), is_about_clock: false }
+    }
+
+    /// A remark on a line.
+    pub(crate) fn of_line(line: usize, message: impl Into<String>) -> Remark {
+        Remark { line: Some(line), ..Remark::of_file(message) }
+    }
+
+    /// A contradiction in the frame rate of the file.
+    pub(crate) fn of_clock(message: impl Into<String>) -> Remark {
+        Remark { is_about_clock: true, ..Remark::of_file(message) }
     }
 }
 

@@ -171,7 +171,7 @@ fn remarks_on(node: Node<'_, '_>, force: &ExternalForce) -> Vec<Remark> {
 fn remark(node: Node<'_, '_>, what: &str) -> Remark {
     let line = node.document().text_pos_at(node.range().start).row as usize;
     let message = format!("<{}> {} {what}", node.tag_name().name(), quoted(&name_of(node)));
-    Remark { line: Some(line), message }
+    Remark::of_line(line, message)
 }
 
 fn name_of(node: Node<'_, '_>) -> String {

@@ -45,16 +45,19 @@ pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: 
     answered(py, ForcesRequest { job, convention, keep, ..ForcesRequest::default() }, Existing::Kept, &files)
 }
 
-/// The calibration of a person: the content of the file of `ambulo calibrate`. The options are those of every trial.
+/// The calibration of a person: the content of the file of `ambulo calibrate`. `measured` has the tables of forces and
+/// the external loads of the trials, or none; the options are those of every trial.
 #[pyfunction]
 pub(crate) fn calibrate<'py>(
     py: Python<'py>,
     trials: Vec<PathBuf>,
+    measured: [Vec<PathBuf>; 2],
     options: &Bound<'py, PyDict>,
     files: Files,
 ) -> PyResult<Bound<'py, PyAny>> {
     let Given { job, .. } = Given::of(options)?;
-    answered(py, CalibrateRequest::of(trials, job), Existing::Kept, &files)
+    let [tables, loads] = measured;
+    answered(py, CalibrateRequest { tables, loads, ..CalibrateRequest::of(trials, job) }, Existing::Kept, &files)
 }
 
 /// A request: a dictionary with the verb as its only key (docs/REQUESTS.md), where None leaves a field out. `of_all`

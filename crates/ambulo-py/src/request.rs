@@ -3,6 +3,7 @@
 use crate::failure::{exception, refused};
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
+use ambulo::kinematics::calibration::HipRegression;
 use ambulo::study::GroundSettings;
 use ambulo_cli::{Outputs, Request};
 use ambulo_results::{Convention, Keep};
@@ -121,6 +122,7 @@ impl Given {
             "ground" => return self.take_ground(given, GroundSettings::NoContact, !given.switch()?),
             "refit" => settings.refit = given.switch()?,
             "fit" => settings.fit = Some(given.one_of(&MarkerFitting::ALL)?),
+            "hip" => settings.hip = given.one_of(&HipRegression::ALL)?,
             "max_gap" => settings.longest_gap_s = given.number()?,
             "start" => settings.window.from_s = Some(given.number()?),
             "end" => settings.window.to_s = Some(given.number()?),

@@ -272,15 +272,30 @@ impl<'a> ReactionReader<'a> {
     #[inline]
     #[must_use]
     pub fn at(&self, body: BodyId, frame: usize) -> JointReaction {
+        self.solved(frame, |workspace, lane| workspace.many.reaction(body.index(), lane))
+    }
+
+    /// Pose, velocity and acceleration of a body.
+    ///
+    /// # Panics
+    /// If the trajectory has no such frame, or the model no such body.
+    #[inline]
+    #[must_use]
+    pub fn body_motion(&self, body: BodyId, frame: usize) -> BodyMotion {
+        self.solved(frame, |workspace, lane| workspace.many.scratch.body_motion(&workspace.plan, body, lane))
+    }
+
+    /// Reads the block of eight frames that a frame belongs to; `read` gets the workspace and the place in the block.
+    fn solved<T>(&self, frame: usize, read: impl FnOnce(&Workspace, usize) -> T) -> T {
         assert!(frame < self.trajectory.grid().frames, "frame {frame} of a shorter motion");
         let (workspace, solved) = &mut *self.block.borrow_mut();
         let first = frame - frame % SIDE_BY_SIDE;
         if *solved != Some(first) {
-            let Workspace { plan, arch, many: kernel, .. } = workspace;
+            let Workspace { plan, arch, many: kernel, .. } = &mut *workspace;
             kernel.solve_block(plan, *arch, self.trajectory, &self.loads, first);
             *solved = Some(first);
         }
-        workspace.many.reaction(body.index(), frame - first)
+        read(workspace, frame - first)
     }
 }
 

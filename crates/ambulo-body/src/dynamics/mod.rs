@@ -9,6 +9,7 @@
 
 mod inverse;
 mod inverse_derivatives;
+mod joint_moments;
 mod joint_powers;
 mod roots;
 
@@ -57,6 +58,7 @@ pub use inverse_derivatives::InverseDerivatives;
 pub use inverse_derivatives::{CurvedJointError, inverse_derivatives};
 #[doc(hidden)]
 pub use inverse_derivatives::{DerivativeKernel, Spatial};
+pub use joint_moments::JointMoments;
 pub use joint_powers::JointPowers;
 pub use problem::{Method, SolverSettings};
 #[doc(hidden)]

@@ -24,7 +24,7 @@ mod side;
 mod simm_spline;
 pub(crate) mod subject_shape;
 
-pub use anatomy::{Anatomy, Movement};
+pub use anatomy::{Anatomy, Movement, Region};
 pub use bushing::Bushing;
 #[doc(hidden)]
 pub use bushing::{BushingEnd, Resistance};

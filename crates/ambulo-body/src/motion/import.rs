@@ -114,6 +114,7 @@ fn no_coordinate(model: &Model, table: &Table) -> MotionError {
         model: model.name().to_owned(),
         found: join(table.names().iter().map(String::as_str).collect()),
         known: join(model.coordinates().iter().map(|c| c.name.as_str()).collect()),
+        are_forces: ["vx", "vy", "px", "py"].iter().all(|end| table.names().iter().any(|name| name.ends_with(end))),
     }
 }
 
@@ -160,6 +161,9 @@ pub(super) fn rows_with_rising_time(
         } else {
             findings.report(Code::MotionRepeatedRow, "rows that repeat the one before them were dropped");
         }
+    }
+    if let ([only], true) = (&kept[..], times.len() > 1) {
+        return Err(MotionError::OneTime { rows: times.len(), time: times[*only] });
     }
     Ok(kept)
 }

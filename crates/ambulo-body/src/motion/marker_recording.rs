@@ -144,6 +144,22 @@ impl MarkerRecording {
         }
     }
 
+    /// At most this many frames, evenly spread over the recording.
+    #[must_use]
+    pub fn sample(&self, most: usize) -> MarkerRecording {
+        let step = self.frames().div_ceil(most.max(1)).max(1);
+        let path = |path: &MarkerPath| MarkerPath {
+            name: path.name.clone(),
+            positions: path.positions.iter().copied().step_by(step).collect(),
+        };
+        MarkerRecording {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz / step as f64,
+            times: self.times.iter().copied().step_by(step).collect(),
+            markers: self.markers.iter().map(path).collect(),
+        }
+    }
+
     /// The trajectories in rotated axes: `world_from_lab * p`.
     #[must_use]
     pub fn rotated(&self, world_from_lab: &Mat3) -> MarkerRecording {

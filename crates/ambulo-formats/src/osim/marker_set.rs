@@ -68,7 +68,7 @@ impl OsimMarkerSet {
             Some(before) => {
                 let message =
                     format!("marker {} is also on line {}; the later one was used", quoted(&marker.name), before.line);
-                self.remarks.push(Remark { line: Some(marker.line), message });
+                self.remarks.push(Remark::of_line(marker.line, message));
                 *before = marker;
             }
         }

@@ -69,7 +69,7 @@ pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &
     let unused: Vec<String> = others().map(tag).filter(|t| known.unused.contains(&t.as_str())).collect();
     if !unused.is_empty() {
         let message = format!("<{}>: not used: {}", node.tag_name().name(), unused.join(", "));
-        remarks.push(Remark { line: Some(xml::line_of(node)), message });
+        remarks.push(Remark::of_line(xml::line_of(node), message));
     }
     for twice in elements_again(node).filter(|n| known.read.contains(&n.tag_name().name())) {
         let message = format!(
@@ -77,11 +77,11 @@ pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &
             node.tag_name().name(),
             tag(twice)
         );
-        remarks.push(Remark { line: Some(xml::line_of(twice)), message });
+        remarks.push(Remark::of_line(xml::line_of(twice), message));
     }
     for unknown in others().filter(|n| !known.unused.contains(&n.tag_name().name())) {
         let message =
             format!("<{}>: the element <{}> is not known and was not read", node.tag_name().name(), tag(unknown));
-        remarks.push(Remark { line: Some(xml::line_of(unknown)), message });
+        remarks.push(Remark::of_line(xml::line_of(unknown), message));
     }
 }

@@ -143,7 +143,7 @@ impl Table {
         let what = if value.is_infinite() { "infinite".to_owned() } else { format!("{value:.0e}") };
         let others = if count > 1 { format!(" ({count} such numbers)") } else { String::new() };
         let message = format!("the value of {} is {what}{others}; it was read as missing", quoted(&name));
-        Some(Remark { line: Some(line), message })
+        Some(Remark::of_line(line, message))
     }
 
     /// Line of the file with this row, counted from 1; `None` for a table made in memory.

@@ -142,6 +142,8 @@ pub(crate) struct Fact {
 pub(crate) enum PageSource {
     /// By force plates.
     Measured,
+    /// By force plates, and from the motion where a foot was beside them.
+    Mixed,
     /// From the motion.
     Predicted,
     /// By a simulation.
@@ -314,6 +316,8 @@ pub(crate) struct Trace {
     pub values: Series,
     /// Its standard deviation.
     pub sd: Option<Series>,
+    /// Times in which the ground force behind it was predicted or is unknown, while others were measured [s].
+    pub predicted: Vec<[f64; 2]>,
     /// Its column in the files.
     pub origin: Option<Origin>,
 }

@@ -3,7 +3,7 @@
 
 use ambulo::numerics::{mean, sample_deviation};
 use ambulo::study::session::VariableScore;
-use ambulo_results::{Convention, WalkingSummary};
+use ambulo_results::{Convention, QuantitySummary, WalkingSummary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -172,6 +172,9 @@ pub struct SessionSummary {
     pub representative: Option<RepresentativeSummary>,
     /// Over the strides of the cycles that count.
     pub times_and_distances: WalkingSummary,
+    /// External knee adduction moment over the stances of these cycles: `first_peak`, `second_peak`, `impulse`.
+    #[serde(default)]
+    pub knee_adduction_moment: Vec<QuantitySummary>,
     /// The reference group of the session; `null` if there is none.
     pub(crate) reference: Option<ReferenceSummary>,
     /// Why it is not compared.

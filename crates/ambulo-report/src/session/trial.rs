@@ -57,7 +57,10 @@ impl ComputedTrial {
         let (angles, convention) = angles_of(outcome, chosen);
         // All trials of a session have one body, and their forces one mass.
         let unmeasured = &outcome.not_measured;
-        let moving = Curves::of(body, analysis, angles.as_ref()).without(unmeasured).per_mass(body.mass());
+        let moving = Curves::of(body, analysis, angles.as_ref())
+            .without(unmeasured)
+            .with_knees(outcome.knee_angles())
+            .per_mass(body.mass());
         let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
         let on_plates = measured
             .map(|measured| (measured, Curves::of(body, measured, None).without(unmeasured).per_mass(body.mass())));
@@ -157,7 +160,11 @@ impl CurveReader {
             let (analysis, curves) = if is_angle { motion } else { source };
             let is_measured = !is_angle && forces == CycleForces::Measured;
             if let Some(values) = self.values(quantity, cycle.side, is_measured, curves) {
-                found.insert(quantity.id.to_owned(), over_cycle(analysis.trajectory.grid(), values, cycle));
+                let curve = over_cycle(analysis.trajectory.grid(), values, cycle);
+                // Markers that were lost leave gaps in the angles of knees.
+                if curve.iter().all(|value| value.is_finite()) {
+                    found.insert(quantity.id.to_owned(), curve);
+                }
             }
         }
         found

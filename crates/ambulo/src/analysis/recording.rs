@@ -6,7 +6,7 @@ use super::feasibility::over_ground;
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
-use crate::dynamics::{Forces, JointPowers, ReactionReader, Workspace, inverse_with_residual};
+use crate::dynamics::{Forces, JointMoments, JointPowers, ReactionReader, Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings, word};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, BodyForces, GroundForces};
@@ -94,6 +94,12 @@ impl Analysis {
     #[must_use]
     pub fn powers(&self, model: &Model) -> JointPowers<'_> {
         JointPowers::new(model, &self.trajectory, &self.forces.generalized)
+    }
+
+    /// The moments of hip, knee and ankle in three planes, from the reactions in these joints.
+    #[must_use]
+    pub fn joint_moments(&self, model: &Model) -> JointMoments<'_> {
+        JointMoments::new(model, &self.trajectory, self.ground.loads())
     }
 
     /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.

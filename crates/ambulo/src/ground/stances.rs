@@ -109,6 +109,16 @@ impl Stance {
     }
 }
 
+/// Of the time in which a leg was loaded, the share in which its load was measured; `None` if it was never loaded.
+pub(crate) fn measured_share(stances: &[Stance], side: Side) -> Option<f64> {
+    let loaded_s = |of: fn(&StanceSource) -> bool| -> f64 {
+        let own = stances.iter().filter(|stance| stance.side == side && of(&stance.source));
+        own.map(|stance| stance.end_s - stance.start_s).fold(0.0, |sum, duration_s| sum + duration_s)
+    };
+    let all_s = loaded_s(|_| true);
+    (all_s > 0.0).then(|| loaded_s(StanceSource::is_measured) / all_s)
+}
+
 /// A time in which a measured load acts on a foot.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedTime {

@@ -68,6 +68,7 @@ pub use values::{
 
 use crate::analysis::Subject;
 use crate::findings::Findings;
+use crate::kinematics::calibration::HipRegression;
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
@@ -268,6 +269,11 @@ impl Job {
     /// The recording, for messages.
     fn shown(&self) -> String {
         self.recording().display().to_string()
+    }
+
+    /// Whether a regression of the hip centres of the built-in body was chosen.
+    fn has_other_hip(&self) -> bool {
+        self.settings.hip != HipRegression::default()
     }
 
     /// Whether segment masses of the built-in body were chosen.

@@ -46,7 +46,14 @@ pub enum StudyError {
     #[error(transparent)]
     ForceTable(MotionError),
     /// Forces of the two feet that are not recognised by their names.
-    #[error("the columns of the two feet were not recognised among {}", .found.join(", "))]
+    #[error(
+        "the columns of the two feet were not recognised among {}{}", .found.join(", "),
+        if .found.iter().any(|name| name.ends_with("pelvis_tilt") || name.contains("knee_angle")) {
+            "; these are coordinates of a motion, not forces"
+        } else {
+            ""
+        }
+    )]
     ForceColumns {
         /// Names of the columns.
         found: Vec<String>,

@@ -1,11 +1,12 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
-use super::force_table::{TableForces, Walker};
-use super::idle_forces::{IdleForces, is_loaded};
+use super::force_table::{TableForces, Walker, is_loaded};
+use super::idle_forces::IdleForces;
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::origin::Tracking;
+use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
 use super::source::{
@@ -21,7 +22,7 @@ use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
 use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
-use crate::kinematics::calibration::{self, BodyMeasurements};
+use crate::kinematics::calibration::{self, BodyMeasurements, JointCentres};
 use crate::kinematics::retarget::retarget;
 use crate::kinematics::sensor_fit::{SensorTrial, fit_sensors};
 use crate::model::anthropometry::Build;
@@ -317,15 +318,16 @@ impl Statements {
         let motion = body.fit.motion.clone();
         let observation = Observation {
             person: Person::of_human(&body.human),
-            model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
             is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
+                regions: RegionFit::of(&body.human.model, &body.fit),
                 fit: Box::new(body.fit),
                 flights: body.flights,
             })),
+            model: self.loaded(body.human.model)?,
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,
             has_models_mass: false,
@@ -459,7 +461,7 @@ impl Statements {
                 BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
-                person = markers.person()?;
+                person = markers.person(settings)?;
                 BodySource::BuiltIn { person: &person, set: set.as_ref() }
             }
             MarkerBody::Calibrated(subject) => BodySource::Calibrated(subject),
@@ -576,7 +578,7 @@ impl MarkerSource {
     }
 
     /// Measurements of the person, for the built-in body.
-    fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
+    fn person(&self, settings: &Settings) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let still = || standing.as_ref().map(|standing| -> &LaboratoryFile { standing });
@@ -585,7 +587,10 @@ impl MarkerSource {
             table: *table,
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
-            measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
+            measurements: BodyMeasurements {
+                joints: JointCentres { hip: settings.hip, ..JointCentres::default() },
+                ..BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name)))
+            },
         })
     }
 }

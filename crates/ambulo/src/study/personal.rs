@@ -94,13 +94,13 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
     let mut deviations: BySide<Vec<[f64; 3]>> = BySide { right: Vec::new(), left: Vec::new() };
     let mut first: Option<PersonalErrors> = None;
     for (trial, outcome) in trials.iter().enumerate() {
+        if outcome.activity.kind != ActivityKind::Walk {
+            return Err(CalibrationError::NotWalking { trial, found: outcome.activity.kind.words() });
+        }
         let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or(CalibrationError::NoPlates { trial })?;
         let (measured, coverage) =
             measured.as_ref().zip(coverage.as_ref()).ok_or(CalibrationError::NoPlates { trial })?;
-        if outcome.activity.kind != ActivityKind::Walk {
-            return Err(CalibrationError::NotWalking { trial, found: outcome.activity.kind.words() });
-        }
         if outcome.quality.state == QualityState::Bad {
             let reason = outcome.quality.reasons.first().map_or_else(String::new, |reason| reason.message.clone());
             return Err(CalibrationError::BadTrial { trial, reason });

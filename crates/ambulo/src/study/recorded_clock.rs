@@ -4,8 +4,11 @@
 
 use super::error::StudyError;
 use super::source::{MarkerSource, MeasuredForces, Recording};
+use crate::analysis::LaboratoryRecording;
 use crate::findings::Findings;
-use crate::motion::{misread_step, release_held_coordinates, release_held_markers};
+use crate::motion::{
+    misread_step, release_held_coordinates, release_held_markers, release_held_poses, release_held_sensors,
+};
 use crate::numerics::median;
 
 impl Recording {
@@ -15,14 +18,15 @@ impl Recording {
         match &mut self {
             Recording::Coordinates { model, motion } => release_held_coordinates(model, motion, findings),
             Recording::Markers(markers) => {
-                release_held_markers(&mut markers.trial.recording.markers, findings);
+                markers.trial.recording.release_held(findings);
                 markers.shift_plates(delay_s);
             }
             Recording::Skeleton { skeleton, .. } => {
                 release_held_markers(&mut skeleton.markers, findings);
                 skeleton.markers = skeleton.markers.trimmed_to_visible();
             }
-            Recording::Sensors(_) | Recording::Complete(_) => {}
+            Recording::Sensors(sensors) => release_held_sensors(&mut sensors.moving, findings),
+            Recording::Complete(_) => {}
         }
         Ok(self)
     }
@@ -46,6 +50,20 @@ fn check_step(times: &[f64]) -> Result<(), StudyError> {
     match misread_step(step_s) {
         Some((looks_like, seconds)) => Err(StudyError::Clock { step_s, looks_like, seconds }),
         None => Ok(()),
+    }
+}
+
+impl LaboratoryRecording {
+    /// Makes gaps of the held samples of markers, or of poses and the points that follow from them.
+    fn release_held(&mut self, findings: &mut Findings) {
+        match &mut self.poses {
+            None => release_held_markers(&mut self.markers, findings),
+            Some(poses) => {
+                if release_held_poses(poses, findings) {
+                    self.markers = poses.points(&self.markers.name);
+                }
+            }
+        }
     }
 }
 

@@ -16,7 +16,6 @@
 //! weight = 0.5
 //! ```
 
-use super::landmark::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use super::{Landmark, MarkerDefinition, MarkerSet, Segment};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -127,11 +126,7 @@ fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
         }
     };
     let own = table.get("place").map(|value| value.vector()).transpose()?;
-    let usual = match (landmark, segment) {
-        (Some(landmark), _) => landmark.weight(),
-        (None, Segment::Humerus | Segment::Forearm) => LOOSE_WEIGHT,
-        (None, _) => FOLLOWING_WEIGHT,
-    };
+    let usual = landmark.map_or_else(|| segment.technical_weight(), Landmark::weight);
     let weight = match table.get("weight") {
         Some(value) => {
             let weight = value.above_zero()?;

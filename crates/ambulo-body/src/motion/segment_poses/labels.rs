@@ -55,7 +55,7 @@ pub(super) fn check_complete(
 }
 
 /// `left thigh`.
-pub(super) fn in_words(segment: PosedSegment) -> String {
+pub(in crate::motion) fn in_words(segment: PosedSegment) -> String {
     let sided = |side: Side, word: &str| format!("{side} {word}");
     match segment {
         PosedSegment::Pelvis => "pelvis".to_owned(),

@@ -23,6 +23,7 @@ mod labels;
 mod xsens;
 
 pub use error::SegmentPoseError;
+pub(super) use labels::in_words;
 pub use xsens::{events_from_mvnx, segment_poses_from_mvnx};
 
 use super::guessed_unit::unit_of_frames;

@@ -19,6 +19,7 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
         role,
         values: block.add(values),
         sd: None,
+        predicted: Vec::new(),
         origin,
     };
     let panel = Panel {

@@ -173,13 +173,13 @@ impl Verdict {
     /// support the person, so the verdict is undecided, and reasons that come from these forces are dropped.
     pub(crate) fn add_unsupported(&mut self, found: &[Reason]) {
         let Some(first) = found.first() else { return };
-        let is_explained = |check| !matches!(check, Check::Range | Check::Pull);
+        let is_explained = |reason: &Reason| !matches!(reason.check, Check::Range | Check::Pull);
         self.set_aside(is_explained, undecided_by_other_support(&first.message));
     }
 
     /// Drops reasons that have a cause other than the movement; `why` the verdict is then undecided.
-    pub fn set_aside(&mut self, is_explained: impl Fn(Check) -> bool, why: String) {
-        self.reasons.retain(|reason| !is_explained(reason.check));
+    pub fn set_aside(&mut self, is_explained: impl Fn(&Reason) -> bool, why: String) {
+        self.reasons.retain(|reason| !is_explained(reason));
         self.undecided.push(why);
         self.state = VerdictState::of(&self.reasons, &self.undecided);
     }

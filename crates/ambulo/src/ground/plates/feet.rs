@@ -83,10 +83,10 @@ impl FeetInMotion<'_> {
         is_over && off_level_m(&line, plate) == 0.0 && self.stands(side, time_s)
     }
 
-    /// Whether heel and toe are over the plate, at the height of a foot that stands on it.
-    pub(super) fn is_inside(&self, side: Side, plate: &PlateRecording, time_s: f64) -> bool {
-        let Some(line) = self.line(side, time_s) else { return false };
-        line.iter().all(|p| plate.depth_inside(*p) > OVER_EDGE_M) && off_level_m(&line, plate) == 0.0
+    /// How many of heel and toe are over the plate, at the height of a foot that stands on it.
+    pub(super) fn ends_inside(&self, side: Side, plate: &PlateRecording, time_s: f64) -> usize {
+        let Some(line) = self.line(side, time_s).filter(|line| off_level_m(line, plate) == 0.0) else { return 0 };
+        line.iter().filter(|end| plate.depth_inside(**end) > OVER_EDGE_M).count()
     }
 
     fn stands(&self, side: Side, time_s: f64) -> bool {
