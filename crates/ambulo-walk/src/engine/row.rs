@@ -17,8 +17,8 @@
 //! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at
 //! t.
 //!
-//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a
-//! loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
+//! In three cases, forces are the plain multipliers of the step. A drive gives way, follows targets that a machine
+//! computes from step to step, or turns a ball joint; a loop is being closed; or the solver did not converge.
 //!
 //! Pinned by: tests/scene_instants.rs
 
