@@ -2,8 +2,9 @@
 //!
 //! Butterworth: the series is extended by odd reflection, low-pass filtered forwards and backwards, and a natural
 //! quintic spline through the extended series gives the derivatives. So the ends of filter and spline are outside the
-//! data, as in OpenSim's inverse dynamics tool. Spline: a natural quintic smoothing spline whose smoothing parameter is
-//! chosen by generalised cross-validation for each coordinate (Woltring 1986); it also estimates the noise.
+//! data, as in OpenSim's inverse dynamics tool.
+//! Spline: a natural quintic smoothing spline whose smoothing parameter is chosen by generalised cross-validation for
+//! each coordinate (Woltring 1986); it also estimates the noise.
 
 use super::filter::{LowPass, low_pass_padded};
 use super::gaps::{LONGEST_GAP_S, fill_gaps, rows_around, spline_through};
