@@ -147,7 +147,7 @@ impl MarkerTrial<'_> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
         let calibrated =
             |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
-        // A body that needs the motion besides the standing trial is not that of the other motions.
+        // A body that also needs markers of this motion cannot be shared with other motions.
         let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),

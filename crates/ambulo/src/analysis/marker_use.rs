@@ -11,7 +11,7 @@ use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
 
 /// Of the markers of a motion, a body should follow at least this share [1].
 const LEAST_SHARE: f64 = 0.6;
-/// Markers that show the pose of a segment without those of the joint at its end.
+/// Markers that show the pose of a segment without markers of the joint at its end.
 const OF_A_POSE: usize = 3;
 /// Weight of markers that define a joint.
 const AT_JOINT: f64 = 1.0;

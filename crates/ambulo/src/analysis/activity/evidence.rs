@@ -165,7 +165,7 @@ fn swing(footfalls: &Footfalls) -> Option<f64> {
 }
 
 /// Median distance between the places of a foot in the middle of a stance and of its next one [m], or twice the
-/// distance forward between those of both feet.
+/// distance forward between the places of both feet.
 fn stride(instants: &[Instant], footfalls: &Footfalls, grid: TimeGrid) -> Option<f64> {
     let middle = |fall: &Footfall| {
         let (from, to) = (fall.strike_s.unwrap_or(grid.start_s), fall.off_s.unwrap_or(grid.end_s()));

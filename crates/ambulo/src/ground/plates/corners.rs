@@ -112,7 +112,7 @@ struct Loaded {
     plate: usize,
     /// Fits, one per order of the corners.
     fits: Vec<Fit>,
-    /// Whether its force was found to be that of the foot on the plate, so that all signs were reversed.
+    /// Whether the file has the force of the foot on the plate, so that all signs were reversed.
     is_reversed: bool,
 }
 
