@@ -8,7 +8,7 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
-use ambulo::kinematics::calibration::CalibrationError;
+use ambulo::kinematics::calibration::CalibrationError as BodyError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
@@ -153,7 +153,7 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
             Some("`--subject NAME` chooses one of them")
         }
         StudyError::Markers(
-            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(CalibrationError::Markers { .. }),
+            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. }),
         ) => Some(
             "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
              file, then give it with `--markers mine.toml`",
