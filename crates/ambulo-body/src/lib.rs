@@ -10,6 +10,7 @@
 //! | [`model`] | bodies, joints, coordinates, markers and anatomy |
 //! | [`motion`] | recordings of markers, coordinates, skeletons, force plates and sensors |
 //! | [`kinematics`] | from markers to coordinates, and from coordinates to the motion of all bodies |
+//! | [`functional`] | centres of hips and axes of knees from a movement |
 //! | [`contact`] | contact points, friction, rigid and compliant laws |
 //! | [`dynamics`] | inverse dynamics, and bodies under constraints |
 
@@ -25,6 +26,8 @@ pub mod model;
 pub mod motion;
 
 pub mod kinematics;
+
+pub mod functional;
 
 pub mod contact;
 

@@ -2,6 +2,7 @@
 
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
 use ambulo::findings::word;
+use ambulo::functional::CrossTalk;
 use ambulo::ground::plates::{ContactQuality, PlateContact};
 use ambulo::kinematics::calibration::{HipCentres, SegmentScale};
 use ambulo::kinematics::marker_fit::MarkerFit;
@@ -26,6 +27,9 @@ pub struct SubjectSummary {
     /// Hip centres of the built-in body; left out if it was not calibrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hips: Option<HipsSummary>,
+    /// Cross-talk of the knees of the built-in body; left out for knees that do not show it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub knees: Vec<KneeSummary>,
     /// Sizes of the segments of the built-in body.
     pub segments: Vec<SegmentSummary>,
     /// Which foot loaded which plate, and when.
@@ -57,6 +61,20 @@ pub struct HipsSummary {
     pub right_mm: [f64; 3],
     /// Place of the left one [mm].
     pub left_mm: [f64; 3],
+}
+
+/// How far varus follows flexion at a knee, from the segments' own markers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct KneeSummary {
+    /// The side.
+    pub side: Side,
+    /// Correlation of varus with flexion.
+    pub r: f64,
+    /// Range of varus from 2.5 to 97.5 % of the frames [deg].
+    pub varus_range_deg: f64,
+    /// Turn of the knee axis about the long axis of the thigh that makes the variance of varus least [deg].
+    pub turn_deg: f64,
 }
 
 /// Quality of the marker fit.
@@ -171,6 +189,7 @@ impl SubjectSummary {
         SubjectSummary {
             turn_deg: body.laboratory.turn_deg,
             marker_sets: body.subject.sets.clone(),
+            knees: body.cross_talk.iter().filter_map(|(side, knee)| Some(KneeSummary::new(side, (*knee)?))).collect(),
             hips: report.map(|report| HipsSummary::new(&report.hips)),
             segments: segments.iter().map(SegmentSummary::new).collect(),
             plates: plate_contacts(body),
@@ -192,6 +211,7 @@ impl SubjectSummary {
             marker_sets: Vec::new(),
             markers: MarkersSummary::new(fit),
             hips: None,
+            knees: Vec::new(),
             segments: Vec::new(),
             plates: Vec::new(),
             plate_corners_m: Vec::new(),
@@ -239,6 +259,13 @@ impl PlateCornersSummary {
 impl SegmentSummary {
     fn new(scale: &SegmentScale) -> SegmentSummary {
         SegmentSummary { body: scale.body.clone(), factor: scale.factor, measured: scale.is_measured }
+    }
+}
+
+impl KneeSummary {
+    fn new(side: Side, knee: CrossTalk) -> KneeSummary {
+        let [varus_range_deg, turn_deg] = [knee.varus_range_rad, knee.turn_rad].map(f64::to_degrees);
+        KneeSummary { side, r: knee.r, varus_range_deg, turn_deg }
     }
 }
 

@@ -79,7 +79,7 @@
 
 #[doc(inline)]
 pub use ambulo_body::{
-    contact, dynamics, findings, formats, kinematics, model, motion, numerics, spatial, toml_reader,
+    contact, dynamics, findings, formats, functional, kinematics, model, motion, numerics, spatial, toml_reader,
 };
 #[doc(inline)]
 pub use ambulo_walk::{gait, optimal};

@@ -6,6 +6,7 @@
 //! plates.
 
 use super::fitted_feet::with_fitted_feet;
+use super::functional_joints;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
@@ -13,6 +14,7 @@ use super::laboratory_recording::LaboratoryRecording;
 use super::progress::{Progress, Stage};
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
+use crate::functional::CrossTalk;
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
 use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
@@ -22,7 +24,7 @@ use crate::kinematics::marker_fit::{
 };
 use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
 use crate::model::marker_set::MarkerSet;
-use crate::model::{Drive, Model, Side};
+use crate::model::{BySide, Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
 use crate::motion::{Laboratory, Landmarks};
@@ -46,6 +48,8 @@ pub struct BodyInMotion {
     pub keypoints: Option<KeypointReport>,
     /// What contradicts the labels of the markers or the standing trial, one sentence each.
     pub contradictions: Vec<String>,
+    /// How far varus follows flexion at the knees of the built-in body.
+    pub cross_talk: BySide<Option<CrossTalk>>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -105,18 +109,31 @@ pub(crate) fn fit_body_to_markers(
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
+    let mut cross_talk = BySide::default();
     if subject.calibration.is_some() {
+        if keypoints.is_none() {
+            cross_talk = functional_joints::cross_talk(&subject, &followed, findings);
+        }
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
-    Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+    Ok(BodyInMotion {
+        keypoints,
+        contradictions,
+        cross_talk,
+        ..on_floor.body_in_motion(subject, fit, findings, progress)?
+    })
 }
 
 impl MarkerTrial<'_> {
     /// The markers of the standing trial in world axes, with the labels of the person.
-    fn standing_markers(&self, contradictions: &mut Vec<String>, findings: &mut Findings) -> Option<MarkerRecording> {
+    pub(super) fn standing_markers(
+        &self,
+        contradictions: &mut Vec<String>,
+        findings: &mut Findings,
+    ) -> Option<MarkerRecording> {
         let set = self.body.marker_set();
         let standing = identity::with_right_labels(self.standing?, "standing trial", set, contradictions, findings);
         let found = self.body.turned(&standing, findings).1.markers;
@@ -131,13 +148,14 @@ impl MarkerTrial<'_> {
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
-        let calibrated =
-            |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
+        let from = whole.as_ref().or(standing);
+        let calibrated = |findings: &mut Findings| Subject::of_source(&self.body, moving, from, findings);
         // A body that needs the motion besides the standing trial is not that of the other motions.
-        match (standing, self.bodies) {
+        let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
-        }
+        };
+        subject?.with_chosen_knee_axes(&self.body, moving, from, findings)
     }
 }
 
@@ -202,6 +220,7 @@ impl OnFloor<'_> {
             on_plates,
             keypoints: None,
             contradictions: Vec::new(),
+            cross_talk: BySide::default(),
         })
     }
 }

@@ -5,7 +5,7 @@
 //! only the faults of the second part whose name contains it.
 
 mod changes;
-mod clean;
+pub(crate) mod clean;
 mod impossible;
 mod spoiled;
 
