@@ -54,7 +54,8 @@ pub struct SubjectSummary {
 pub struct HipsSummary {
     /// The name of a regression (`--hip`), `functional` or `recorded`.
     pub method: String,
-    /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded ones.
+    /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded
+    /// ones.
     pub expected_error_mm: Option<f64>,
     /// Place of the right one: forward, up and right from midway between the anterior spines, in axes through the
     /// spines [mm]. Recorded ones: from midway between both.

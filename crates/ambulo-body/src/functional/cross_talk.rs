@@ -1,7 +1,7 @@
 //! How far the varus of a knee follows its flexion, and the turn of its axis that makes this least.
 //!
-//! A knee axis that is turned about the long axis of the thigh shows flexion as varus (cross-talk). With the direction u
-//! from ankle to knee in the frame of the thigh, x forward, y up and z to the right,
+//! A knee axis that is turned about the long axis of the thigh shows flexion as varus (cross-talk). With the direction
+//! u from ankle to knee in the frame of the thigh, x forward, y up and z to the right,
 //!
 //!   flexion = atan2(-u_x, u_y),   varus = asin(u_z),
 //!

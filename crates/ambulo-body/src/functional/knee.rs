@@ -85,7 +85,8 @@ pub(super) fn axis(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Result<
     Ok(FunctionalKnee { axis, turn_rad, off_rad, range_rad })
 }
 
-/// Range of the rotation about an axis of the thigh, and root mean square of the rest [rad], both from the mean posture.
+/// Range of the rotation about an axis of the thigh, and root mean square of the rest [rad], both from the mean
+/// posture.
 fn rotations(frames: &[Rotated], axis: Vec3) -> [f64; 2] {
     let middle = &frames[frames.len() / 2];
     let start = middle[0].rotation.tr_mul(&middle[1].rotation);

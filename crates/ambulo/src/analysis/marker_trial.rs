@@ -6,9 +6,9 @@
 //! plates.
 
 use super::fitted_feet::with_fitted_feet;
-use super::functional_joints;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
+use super::knee_axes;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::{Progress, Stage};
@@ -112,7 +112,7 @@ pub(crate) fn fit_body_to_markers(
     let mut cross_talk = BySide::default();
     if subject.calibration.is_some() {
         if keypoints.is_none() {
-            cross_talk = functional_joints::cross_talk(&subject, &followed, findings);
+            cross_talk = knee_axes::cross_talk(&subject, &followed, findings);
         }
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }

@@ -11,6 +11,7 @@ pub(crate) mod foot_progression;
 mod functional_joints;
 mod ground_agreement;
 pub(crate) mod identity;
+mod knee_axes;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
