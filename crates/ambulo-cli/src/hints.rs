@@ -114,6 +114,8 @@ fn option(field: Field) -> Option<&'static str> {
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::Hip => "`--hip harrington|hara|bell|plug-in-gait`",
+        Field::KneeAxis => "`--knee-axis markers|least-cross-talk`",
+        Field::Functional => "`--functional FILE`",
         Field::ResidualReduction => "`--consistent`",
     };
     Some(option)
