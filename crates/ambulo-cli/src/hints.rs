@@ -154,12 +154,12 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
-        StudyError::Markers(
-            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. }),
-        ) => Some(
-            "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
+        StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. })) => {
+            Some(
+                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
              file, then give it with `--markers mine.toml`",
-        ),
+            )
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",
