@@ -12,7 +12,7 @@ use super::force_table::{TableForces, is_loaded};
 use super::source::{MarkerSource, PlateAssignment, PlateUse};
 use crate::analysis::BodyInMotion;
 use crate::findings::{Code, Findings, and_more_times};
-use crate::ground::plates::{ContactQuality, FeetOnPlates, PlateContact, SilentStance};
+use crate::ground::plates::{ContactQuality, SilentStance};
 use crate::model::{BySide, Side};
 
 /// Of the loaded time, loads under no foot may have at most this share in a motion that is judged.
@@ -126,29 +126,19 @@ fn place(body: &BodyInMotion, SilentStance { plate, side, span: [from, to] }: &S
     format!("{} under the {side} foot, {from:.3}-{to:.3} s", body.plates[*plate].name)
 }
 
-/// Why a load of a foot is not there although a plate was under it, or may have been.
+/// Why a load of a foot is not there although a plate was under it, or may have been. Loads that belong to no foot
+/// alone have warnings of their own.
 fn lost_on_plates(body: &BodyInMotion, markers: &MarkerSource, side: Side) -> Option<String> {
-    let FeetOnPlates { contacts, silent, .. } = &body.on_plates;
     let silent = || {
-        let stance = silent.iter().find(|stance| stance.side == side)?;
+        let stance = body.on_plates.silent.iter().find(|stance| stance.side == side)?;
         let state = if is_off(markers, stance.plate) { "was left out" } else { "shows no load" };
         Some(format!("{} {state}", place(body, stance)))
-    };
-    let is_unused = |contact: &&PlateContact| match contact.quality {
-        ContactQuality::Partial => contact.side == Some(side),
-        ContactQuality::TwoFeet | ContactQuality::Unassigned => true,
-        ContactQuality::Clean | ContactQuality::Shared => false,
-    };
-    let unused = || {
-        let contact = contacts.iter().find(is_unused)?;
-        let PlateContact { start_s, end_s, reason, .. } = contact;
-        Some(format!("{}, {start_s:.3}-{end_s:.3} s: {reason}", body.plates[contact.plate].name))
     };
     let unread = || {
         let is_lacking = markers.trial.stated_plates > markers.trial.recording.plates.len();
         is_lacking.then(|| "a force plate of the file could not be read".to_owned())
     };
-    silent().or_else(unused).or_else(unread)
+    silent().or_else(unread)
 }
 
 fn share(part: f64, whole: f64) -> f64 {
