@@ -131,7 +131,7 @@ pub(super) fn in_order(
         .collect();
     let together = better_order(&loaded.iter().collect::<Vec<_>>());
     for own in &loaded {
-        let Loaded { plate, fits } = own;
+        let Loaded { plate, fits, .. } = own;
         let found = together.or_else(|| better_order(&[own]));
         let Some((order, is_distinct)) = found else { continue };
         match plates[*plate].with_corners(CORNER_ORDERS[order]).filter(|_| is_distinct) {
