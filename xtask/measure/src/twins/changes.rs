@@ -216,10 +216,10 @@ pub(super) fn moved(trial: &mut Trial, knees: &[&str], ankles: &[&str]) -> Optio
 pub(super) fn other_stands(trial: &mut Trial) -> Option<()> {
     let (own, other) = (trial.standing.as_ref()?, trial.other.standing.clone()?);
     let has = |point: &&Point| other.points.iter().any(|known| bare(&known.name) == bare(&point.name));
-    let same = own.points.iter().filter(has).count();
-    trial.standing = Some(other);
     // Markers of another laboratory are refused with their names.
-    (2 * same > own.points.len()).then_some(())
+    let are_same = 2 * own.points.iter().filter(has).count() > own.points.len();
+    trial.standing = Some(other);
+    are_same.then_some(())
 }
 
 /// Another person's walk beside this one's.
