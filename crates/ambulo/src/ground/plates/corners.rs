@@ -4,8 +4,9 @@
 //! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at
 //! a distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the
 //! plate. Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre
-//! in every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the agreement
-//! r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the correlation s.
+//! in every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the
+//! agreement r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the
+//! correlation s.
 //!
 //! ```text
 //! cost = (d / 30 mm)² + ((1 - r₁) / 0.3)² + ((1 - r₂) / 0.5)²

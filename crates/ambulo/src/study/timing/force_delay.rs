@@ -14,10 +14,10 @@
 //! Both scatter: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
 //! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the
 //! bones late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and
-//! one frame and the residuals fall by a tenth at their minimum, neither of them rising; by a twentieth if both witnesses
-//! tell a delay of more than two of their standard deviations by themselves, because both do not err so by chance. Noise, a wrong body and
-//! misplaced plates leave residuals that do not depend on s, fall in one of the two only, or are contradicted by the
-//! events.
+//! one frame and the residuals fall by a tenth at their minimum, neither of them rising; by a twentieth if both
+//! witnesses tell a delay of more than two of their standard deviations by themselves, because both do not err so by
+//! chance. Noise, a wrong body and misplaced plates leave residuals that do not depend on s, fall in one of the two
+//! only, or are contradicted by the events.
 //!
 //! | symbol | unit   | meaning                                                      |
 //! |--------|--------|--------------------------------------------------------------|
@@ -45,8 +45,8 @@ const FARTHEST_S: f64 = 0.15;
 const STEP_S: f64 = 0.005;
 /// Residual force and moment fall to less than this share, geometric mean.
 const FALLS_TO: f64 = 0.9;
-/// Both witnesses are certain beyond this [s], two standard deviations of the events. Residual force and moment then fall
-/// to less than the first share, and neither rises above the second.
+/// Both witnesses are certain beyond this [s], two standard deviations of the events. Residual force and moment then
+/// fall to less than the first share, and neither rises above the second.
 const CERTAIN_S: f64 = 0.016;
 const CERTAIN_FALLS_TO: (f64, f64) = (0.95, 1.1);
 /// Shorter delays are the errors of synchronised laboratories and of this method [s].
