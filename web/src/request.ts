@@ -160,6 +160,10 @@ export type Convention = "clinical" | "opensim";
 export interface CalibrateRequest {
   /** Trials of one person walking over force plates. */
   trials: string[];
+  /** Tables of measured forces, one per trial; none: the force plates in the trials. */
+  tables?: string[];
+  /** External loads of OpenSim, one per trial, or none. */
+  loads?: string[];
   /** Person and settings of every trial. */
   job?: Job;
   /** File for the calibration. */

@@ -11,6 +11,7 @@ mod dist;
 #[cfg(test)]
 mod documents;
 mod house;
+mod keypoint_cost;
 mod measured;
 mod mutants;
 mod python;
@@ -46,6 +47,7 @@ usage: cargo xtask <command>
   same-bytes        compare every byte that two versions of the `ambulo` command write, on every verb and kind of file  OLD NEW
                     [--only CASE].. [--jobs N] [--keep: keep the folders]
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
+  keypoint-cost     measure processor time and memory per frame of `ambulo forces` on keypoints of video, and an hour of them  [PROGRAM]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
@@ -99,6 +101,7 @@ const OWN: [&str; 13] = [
     "same-bytes",
     "command-cost",
     "batch-cost",
+    "keypoint-cost",
     "stream-cost",
 ];
 
@@ -132,6 +135,9 @@ const MISUSED: u8 = 2;
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "help and errors of the automation go to the terminal")]
 fn main() -> ExitCode {
+    if let Some(code) = check::in_place_of_compiler() {
+        return code;
+    }
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
@@ -146,6 +152,7 @@ fn main() -> ExitCode {
         ("same-bytes", _) => same_bytes::run(rest),
         ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
+        ("keypoint-cost", _) => keypoint_cost::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

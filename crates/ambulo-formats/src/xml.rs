@@ -43,7 +43,7 @@ fn parse_text(text: &str, nodes: u32) -> Result<Document<'_>, Error> {
 /// Largest number of attributes of an element. The parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 1000;
 
-/// Whether an element may have very many attributes: `<` never stands inside an element, so no part between two of them
+/// Whether an element may have very many attributes: `<` never occurs inside an element, so no part between two of them
 /// has fewer bytes than its element has attributes.
 fn may_have_many_attributes(text: &str) -> bool {
     let is_many = |part: &str| part.len() > MAX_ATTRIBUTES && count(part.as_bytes(), b'=') > MAX_ATTRIBUTES;

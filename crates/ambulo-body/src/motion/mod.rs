@@ -45,7 +45,7 @@ pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use gait_event::{Event, EventKind, events_from_c3d};
-pub use held::{release_held_coordinates, release_held_markers};
+pub use held::{release_held_coordinates, release_held_markers, release_held_poses, release_held_sensors};
 pub use import::coordinates_from_table;
 #[doc(hidden)]
 pub use jumps::{Jumps, jumps};

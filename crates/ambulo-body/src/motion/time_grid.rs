@@ -114,7 +114,7 @@ pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     Between::of(times, t).value(values)
 }
 
-/// Where a time lies between samples: found once for all columns of a recording.
+/// Place of a time between samples: found once for all columns of a recording.
 #[derive(Debug, Clone, Copy)]
 pub enum Between {
     /// At one sample, or beyond the ends.
@@ -123,7 +123,7 @@ pub enum Between {
     Samples {
         /// Number of the later sample.
         after: usize,
-        /// From 0 to 1.
+        /// Share of the interval, 0 to 1.
         share: f64,
     },
 }

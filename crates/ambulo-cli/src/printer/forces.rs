@@ -66,7 +66,7 @@ fn print_mass(summary: &Summary) -> Result<()> {
     print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
-/// The numbers by which a run is recognised as the expected one.
+/// Prints the main numbers of a run: markers, activity, speed, cadence, step length.
 fn outline(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print_markers(subject)?;
@@ -114,15 +114,16 @@ fn outline(summary: &Summary) -> Result<()> {
     Ok(())
 }
 
-/// How far the motion was changed until feet on the ground supplied its external forces.
+/// Prints the changes by which tracking made feet on the ground supply the external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
-    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, hands_mm, .. } =
+        tracking;
     let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
     let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
+    let hands = hands_mm.map_or_else(String::new, |mm| format!(", a hand by at most {mm:.0} mm"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most \
-         {:.3} \
-         % of body weight, {steps} steps",
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual at \
+         most {:.3} % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
 }
@@ -241,12 +242,12 @@ fn print_ground(summary: &Summary) -> Result<()> {
     print_shares(&summary.ground)
 }
 
-/// Of which share of each leg's loaded time the load was measured, if it was not all of it.
+/// Prints the share of each leg's loaded time with measured load, if it is below 1.
 fn print_shares(ground: &Ground) -> Result<()> {
     ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }
 
-/// Prints which checks of a prediction passed, with the values of those that failed.
+/// Prints the passed checks of a prediction, and the failed checks with their values.
 fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
     let names = |passed: Option<bool>| of(passed).map(|check| &*check.name).collect::<Vec<_>>().join(", ");

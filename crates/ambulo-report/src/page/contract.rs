@@ -605,7 +605,7 @@ pub(crate) struct ViewContact {
     pub side: Option<PageSide>,
 }
 
-/// Page of a motion that is arriving; indices refer to the values of a [`LiveFrame`].
+/// The live page of a stream; indices refer to the values of a [`LiveFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePage {
@@ -629,7 +629,7 @@ pub(crate) struct LiveForce {
     pub point: [usize; 3],
 }
 
-/// A panel of a motion that is arriving.
+/// A panel of the live page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePanel {
@@ -641,7 +641,7 @@ pub(crate) struct LivePanel {
     pub curves: Vec<LiveCurve>,
 }
 
-/// A curve of a motion that is arriving.
+/// A curve of the live page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LiveCurve {

@@ -1,7 +1,7 @@
 //! Ground forces from force plates or other sensors, resampled to the frames of a trajectory.
 //!
 //! The wrench of each sensor is first expressed about the world's origin, M₀ = p × F + T. There it can be filtered,
-//! interpolated and added to those of other sensors; a centre of pressure cannot (it jumps, and is undefined without
+//! interpolated and added to wrenches of other sensors; a centre of pressure cannot (it jumps, and is undefined without
 //! load). The centre of pressure and the free moment are computed at the end, with u the upward unit vector and h the
 //! height of the surface of the plate:
 //!
@@ -233,7 +233,7 @@ pub(crate) struct TotalLoad {
 }
 
 impl TotalLoad {
-    /// Of the recordings around a trajectory; `None` if one of them cannot be used.
+    /// The total of the recordings around a trajectory; `None` if one of them cannot be used.
     pub(crate) fn new(
         model: &Model,
         trajectory: &Trajectory,

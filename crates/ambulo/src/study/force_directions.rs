@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::motion::{ForceRecording, TimeGrid};
 use crate::spatial::Vec3;
 
-/// Below this agreement a direction is wrong: no clean recording comes near, a wrong sign in most.
+/// A direction is wrong if its agreement is below this: clean recordings stay above it, most wrong signs fall below.
 pub(super) const WRONG: f64 = -0.5;
 /// A plate is wrong together with all others if its own agreement is below this.
 const WRONG_TOGETHER: f64 = -0.2;
@@ -83,12 +83,12 @@ struct Sums {
     steps: usize,
 }
 
-/// What is wrong with the horizontal force of a sensor.
+/// A fault in the horizontal force of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fault {
     /// The component along an axis has the wrong sign.
     Flipped(usize),
-    /// The force is right when it is turned to the left by these quarters.
+    /// The force agrees after it is turned to the left by this number of right angles.
     Turned(usize),
     /// The components along both axes are exchanged.
     Exchanged,
@@ -119,10 +119,10 @@ impl ForceDirections {
         }
     }
 
-    /// The verdict, which is on the movement and not on wrong data.
+    /// The verdict, which judges the movement and not faulty data.
     pub(super) fn set_aside(&self, mut verdict: Verdict, force_origin: &ForceOrigin) -> Verdict {
         if let Some((sentence, _)) = self.worst().filter(|_| is_used(force_origin)) {
-            verdict.set_aside(|check| check != Check::Range, sentence.to_owned());
+            verdict.set_aside(|reason| reason.check != Check::Range, sentence.to_owned());
         }
         verdict
     }
@@ -201,7 +201,7 @@ impl Body {
         sums.frames += usize::from(is_added);
     }
 
-    /// Components with the wrong sign, by sensor; those of turned sensors are left out.
+    /// Components with the wrong sign, by sensor; turned sensors are left out.
     fn flipped(&self, sensors: &[Sensor<'_>], turned: &[(usize, Fault)]) -> Vec<(usize, Fault)> {
         let is_turned = |k: usize| turned.iter().any(|(other, _)| *other == k);
         let least_n = SHOWN_BW * self.weight_n;
@@ -271,7 +271,7 @@ impl Sums {
         (self.lever.expected.iter().sum::<f64>() * self.lever.measured.iter().sum::<f64>()).sqrt()
     }
 
-    /// How the force is turned, if it is. Half a turn is two wrong signs.
+    /// The rotation of the force, if it is rotated. Half a turn counts as two wrong signs.
     fn turned_fault(&self, body: &Body) -> Option<Fault> {
         let is_shown = (0..2).any(|axis| self.shows(axis, SHOWN_BW * body.weight_n));
         if !is_shown || self.turned(0) > NOT_TURNED {

@@ -1,4 +1,4 @@
-//! Ground forces as a table: which columns act on which body, and in which axes they are.
+//! Ground forces as a table: the body and the axes of each group of columns.
 
 use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns, with_axis_last};
@@ -22,7 +22,7 @@ pub(super) struct TableForces {
     pub(super) idle: Vec<String>,
     /// Loaded times without a foot [s].
     pub(super) unassigned: Vec<[f64; 2]>,
-    /// How long loads carried something, all together [s].
+    /// Total loaded time of all loads [s].
     pub(super) loaded_s: f64,
     /// Whether the table is in body weights, so that it does not weigh the person.
     pub(super) is_relative: bool,
@@ -35,9 +35,9 @@ pub(super) struct Walker<'a> {
     pub(super) soles: &'a BySide<Option<Sole>>,
     /// The longest time without gaps.
     pub(super) window: Window,
-    /// From the axes of the markers to those of the world.
+    /// Rotation from the axes of the markers to world axes.
     pub(super) world_from_lab: Option<&'a Mat3>,
-    /// By how much the forces were recorded late [s].
+    /// Delay of the recorded forces [s].
     pub(super) delay_s: f64,
 }
 

@@ -15,7 +15,7 @@ use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::plates::{ContactQuality, SilentStance};
 use crate::model::{BySide, Side};
 
-/// Of the loaded time, loads under no foot may have at most this share in a motion that is judged.
+/// Largest share of the loaded time with loads under no foot in a motion that is judged.
 const MOST_UNASSIGNED: f64 = 0.5;
 
 /// Measured forces that cannot belong to this person and motion.
@@ -23,11 +23,11 @@ const MOST_UNASSIGNED: f64 = 0.5;
 pub(super) struct IdleForces {
     /// Loaded times without a foot [s].
     unassigned: Vec<[f64; 2]>,
-    /// Of the loaded time, the share that these are.
+    /// Share of the loaded time with these loads.
     unassigned_share: f64,
     /// Plates or tables without a load although feet are on them.
     silent: Vec<String>,
-    /// Of the stances on plates, the share without a load.
+    /// Share of the stances on plates without a load.
     silent_share: f64,
     /// For each foot, why a load that should have been measured is not there; `None` if there is no such load.
     lost: BySide<Option<String>>,
@@ -49,7 +49,7 @@ impl IdleForces {
         }
     }
 
-    /// Of the plates of a file, without those that the user switched off.
+    /// Idle forces of the plates of a file, without plates that the user switched off.
     pub(super) fn of_plates(body: &BodyInMotion, markers: &MarkerSource) -> IdleForces {
         let contacts = &body.on_plates.contacts;
         let unassigned: Vec<[f64; 2]> = contacts

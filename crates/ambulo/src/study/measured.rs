@@ -6,8 +6,8 @@
 //!                 prediction for the others -------------------> inverse dynamics with all forces -> tables
 //! ```
 //!
-//! Whether data and movement are good is judged on the measured forces alone. The tables have those that are complete:
-//! a leg that carries the body on ground without a plate has no moments otherwise.
+//! Quality and verdict are judged on the measured forces alone. The tables use the completed forces, because a leg that
+//! carries the body on ground without a plate would have no moments otherwise.
 
 use super::observation::Observation;
 use super::settings::Settings;
@@ -32,7 +32,7 @@ use crate::motion::{Motion, interpolate};
 pub(super) struct StanceLoads {
     /// All stances, in order of time.
     pub(super) stances: Vec<Stance>,
-    /// As the motion shows them.
+    /// The stances that the motion shows.
     pub(super) footfalls: Footfalls,
     missing: Vec<Missing>,
     prediction: Option<Prediction>,
@@ -45,7 +45,7 @@ pub(super) struct Measured {
     pub(super) processing: AnalysisSettings,
 }
 
-/// Analyses a motion with its measured forces, and predicts those that are missing.
+/// Analyses a motion with its measured forces, and predicts the forces that are missing.
 pub(super) fn measured(
     observation: &Observation,
     motion: &Motion,
@@ -101,7 +101,7 @@ fn loaded_times(observation: &Observation) -> Vec<LoadedTime> {
     vertical_by_side(model, forces, model.up()).into_iter().flat_map(of_side).collect()
 }
 
-/// Measured vertical forces, and those that the motion requires.
+/// Measured vertical forces, and the vertical forces that the motion requires.
 fn vertical_forces(observation: &Observation, trajectory: &Trajectory) -> VerticalForces {
     let Observation { model, forces, .. } = observation;
     let (grid, up) = (trajectory.grid(), model.up());

@@ -1,24 +1,26 @@
-//! The road from a recording to forces.
+//! Runs a study: from a recording to forces.
 
 use super::error::StudyError;
 use super::force_directions::ForceDirections;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::measured::{Measured, StanceLoads, measured};
+use super::misfits;
 use super::not_measured::not_measured;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m, rms_of_parts_m};
+use super::quality::{Measure, Quality, QualityEvidence, RecordedFaults, StanceHeights};
 use super::refit::refitted;
+use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use super::timing::{PlateTiming, Tempo};
 use super::tracked::tracked;
 use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
-use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
+use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Reason, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, TimesAndDistances, analyse_measured,
     reduce_residual, times_and_distances,
@@ -106,7 +108,7 @@ fn road(
     let subject = origin.subject();
     let (partly_measured, place_is_derived) = (origin.partly_measured(), matches!(origin, Origin::Sensors));
     let tracking = tracking(origin, measured_events);
-    report_arms(tracking.as_ref(), findings);
+    misfits::report(tracking.as_ref().map_or(&[], Tracking::regions), findings);
     let computed = Computed {
         subject,
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
@@ -134,8 +136,8 @@ fn road(
     Ok(outcome)
 }
 
-/// Forces and body mass; where force plates carry another mass than that of a given model, and none is stated, those of
-/// the model with the weighed mass.
+/// Forces and body mass. If force plates carry another mass than a given model has, and no mass is stated, the model
+/// with the weighed mass is used.
 fn weighed(
     mut observed: Observation,
     motion: ObservedMotion,
@@ -170,7 +172,7 @@ struct Computed {
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
-    /// What force plates say about the clock.
+    /// The clock of the recording by its force plates.
     timing: PlateTiming,
     directions: ForceDirections,
     tracking: Option<Tracking>,
@@ -185,71 +187,87 @@ struct Computed {
     force_origin: ForceOrigin,
 }
 
+/// What is found out about data and movement.
+struct Judgement {
+    activity: Activity,
+    strides: TimesAndDistances,
+    stances: Vec<Stance>,
+    verdict: Verdict,
+    quality: Quality,
+}
+
 impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
-        let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
+        let Judgement { activity, strides, stances, verdict, quality } = self.judgement(settings, findings);
+        let Computed { body, analysis, force_origin, .. } = self;
         let loads = self.loads.as_ref();
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
-        let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
-        let judged = Judged {
-            activity: activity.kind,
-            stances: &stances,
-            cutoff_hz: processing.smoother.cutoff_hz(),
-            model: &body,
-            person: &person,
-            analysis: &analysis,
-            device: self.device.as_deref(),
-            checks: prediction.as_ref().map(|found| &found.checks),
-        };
-        let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
-        let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
-        let verdict = self.directions.set_aside(verdict, &force_origin);
-        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
-        let unmeasured_leg = UnmeasuredLeg::of(&listed, &self.idle);
-        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
-        let strides = times_and_distances(&body, &person.soles, &analysis);
-        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
-        let evidence = QualityEvidence {
-            recorded: self.recorded.as_ref(),
-            smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
-            is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
-            force_origin,
-            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
-            tracking: tracking.as_ref(),
-            place_is_derived: self.place_is_derived,
-            mass: &mass,
-            not_measured: &self.not_measured,
-            model: &body,
-            idle: &self.idle,
-            unmeasured_leg: unmeasured_leg.as_ref(),
-            directions: &self.directions,
-            heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
-            verdict: &verdict,
-            delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
-            tempo: self.timing.tempo.or_else(by_gait),
-        };
         Outcome {
-            stances: listed,
+            stances,
             completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
             force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
-            quality: evidence.quality(),
-            mass: mass.after_reduction(body.mass()),
-            tracking,
+            quality,
+            mass: self.mass.after_reduction(body.mass()),
+            tracking: self.tracking,
             activity,
             times_and_distances: strides,
             body,
-            person,
+            person: self.person,
             analysis,
             force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
-            prediction,
+            prediction: self.prediction,
             residual_reduction: self.reduction,
             device: self.device,
             not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
-            processing: Processing::of(&processing),
+            processing: Processing::of(&self.processing),
             subject: self.subject,
         }
+    }
+
+    fn judgement(&self, settings: &Settings, findings: &mut Findings) -> Judgement {
+        let Computed { body, person, analysis, mass, processing, force_origin, .. } = self;
+        let (loads, prediction, tracking) = (self.loads.as_ref(), self.prediction.as_ref(), self.tracking.as_ref());
+        let falls = stances(body, person, analysis, prediction, loads, *processing);
+        let activity = recognised(body, person, analysis, &falls, force_origin, findings);
+        let judged = Judged {
+            activity: activity.kind,
+            stances: &falls,
+            cutoff_hz: processing.smoother.cutoff_hz(),
+            model: body,
+            person,
+            analysis,
+            device: self.device.as_deref(),
+            checks: prediction.map(|found| &found.checks),
+        };
+        let verdict = judged.verdict(settings, force_origin, &self.partly_measured, findings);
+        let verdict = without_faults_of_data(verdict, tracking, mass, &self.idle, force_origin);
+        let verdict = self.directions.set_aside(verdict, force_origin);
+        let stances = loads.map_or_else(|| stances_of(analysis, prediction), |loads| loads.stances.clone());
+        let unmeasured_leg = UnmeasuredLeg::of(&stances, &self.idle);
+        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
+        let strides = times_and_distances(body, &person.soles, analysis);
+        let by_gait = || tempo_of_gait(body, person, analysis, &falls, &strides, activity.kind, findings);
+        let evidence = QualityEvidence {
+            recorded: self.recorded.as_ref(),
+            smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
+            is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
+            force_origin: *force_origin,
+            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
+            tracking,
+            place_is_derived: self.place_is_derived,
+            mass,
+            not_measured: &self.not_measured,
+            model: body,
+            idle: &self.idle,
+            unmeasured_leg: unmeasured_leg.as_ref(),
+            directions: &self.directions,
+            heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &falls, activity.kind),
+            verdict: &verdict,
+            delay: self.timing.delay.filter(|_| *force_origin == ForceOrigin::Measured),
+            tempo: self.timing.tempo.or_else(by_gait),
+        };
+        Judgement { quality: evidence.quality(), activity, strides, stances, verdict }
     }
 }
 
@@ -279,7 +297,7 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     mass
 }
 
-/// What measured forces say about the clock, also those that a prediction is compared with; a fault is reported.
+/// Checks the clock against measured forces, also those that a prediction is compared with; reports a fault.
 fn plate_timing(
     observed: &Observation,
     analysis: &Analysis,
@@ -334,7 +352,7 @@ fn stances<'p>(
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
 
-/// The clock by the gait, for activities in which people take steps on one level.
+/// The clock by the gait, for activities with steps on one level.
 fn tempo_of_gait(
     body: &Model,
     person: &Person,
@@ -371,18 +389,15 @@ fn recognised(
 /// plates that carry another weight than the body's, measured forces that belong to no foot. No movement changes the
 /// mean force on the ground from the weight.
 fn without_faults_of_data(
-    mut verdict: Verdict,
+    verdict: Verdict,
     tracking: Option<&Tracking>,
     mass: &BodyMass,
     idle: &IdleForces,
     force_origin: &ForceOrigin,
 ) -> Verdict {
-    if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
-        let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
-        verdict.set_aside(|_| true, why);
-    }
+    let mut verdict = misfits::set_aside(verdict, tracking.map_or(&[], Tracking::regions));
     let carried = mass.in_motion().filter(|_| *force_origin == ForceOrigin::Measured);
-    let of_weight = |check| matches!(check, Check::Support | Check::Acceleration | Check::Pull);
+    let of_weight = |reason: &Reason| matches!(reason.check, Check::Support | Check::Acceleration | Check::Pull);
     if let Some(carried) = carried.filter(|carried| Measure::Mass.is_bad(mass.disagreement(carried))) {
         let why = format!(
             "the force plates carry {:.1} kg, the body has {:.1} kg: body or plates are wrong, whatever the movement",
@@ -394,24 +409,6 @@ fn without_faults_of_data(
         verdict.set_aside(|_| false, why);
     }
     verdict
-}
-
-/// Reports arms that do not fit a body whose legs and trunk fit.
-fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
-    let Some(Tracking::Markers(tracked)) = tracking else { return };
-    let [of_legs, of_trunk, of_arms] = rms_of_parts_m(tracked);
-    if Measure::MarkerFit.is_bad(of_arms.max(0.0))
-        && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
-    {
-        let message = format!(
-            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of \
-             the \
-             body are not those of the recording, which hardly changes the forces of the legs",
-            1e3 * of_arms,
-            1e3 * of_legs
-        );
-        findings.report(Code::MarkersArms, message);
-    }
 }
 
 /// Reports loaded feet that slide where forces were predicted; a refit may hold them.
@@ -532,7 +529,7 @@ fn processing(
     }
 }
 
-/// The time to analyse if none is asked for: all of it, or the longest time without a gap in what the markers show.
+/// The time to analyse by default: all of it, or the longest time without a long gap of markers.
 fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
     let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_without_gap_s()) else {
         return Window::default();
@@ -600,7 +597,7 @@ fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings:
     }
 }
 
-/// Residual reduction, if it is wanted. Predicted forces scale with the mass of the body, so they cannot correct it.
+/// Residual reduction, if requested. Predicted forces scale with the mass of the body, so they cannot correct it.
 fn residual_reduced(
     model: &Model,
     analysis: Analysis,
@@ -627,6 +624,7 @@ fn residual_reduced(
 fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
     match origin {
         Origin::Markers(followed) => Some(Tracking::Markers(Box::new(TrackedMarkers {
+            regions: RegionFit::of(&followed.body.subject.model, &followed.body.fit),
             body: followed.body,
             listed_events: followed.listed,
             measured_events,

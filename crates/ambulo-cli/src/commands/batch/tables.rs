@@ -23,7 +23,7 @@ pub(super) struct PartTables {
 }
 
 /// Numbers of the summary in the table of trials: column, place in the summary.
-const NUMBERS: [(&str, &str); 12] = [
+const NUMBERS: [(&str, &str); 21] = [
     ("mass_kg", "/mass_kg"),
     ("height_m", "/height_m"),
     ("speed_m_s", "/speed_m_s"),
@@ -36,6 +36,15 @@ const NUMBERS: [(&str, &str); 12] = [
     ("measured_share_l", "/ground/measured_share/left"),
     ("judged_share", "/verdict/judged_share"),
     ("marker_error_mm", "/subject/markers/rms_mm"),
+    ("marker_error_legs_mm", "/subject/markers/regions/legs/rms_mm"),
+    ("marker_error_trunk_mm", "/subject/markers/regions/trunk/rms_mm"),
+    ("marker_error_arms_mm", "/subject/markers/regions/arms/rms_mm"),
+    ("knee_adduction_first_peak_r_nm_kg", "/knee_adduction_moment/0/right/mean"),
+    ("knee_adduction_first_peak_l_nm_kg", "/knee_adduction_moment/0/left/mean"),
+    ("knee_adduction_second_peak_r_nm_kg", "/knee_adduction_moment/1/right/mean"),
+    ("knee_adduction_second_peak_l_nm_kg", "/knee_adduction_moment/1/left/mean"),
+    ("knee_adduction_impulse_r_nms_kg", "/knee_adduction_moment/2/right/mean"),
+    ("knee_adduction_impulse_l_nms_kg", "/knee_adduction_moment/2/left/mean"),
 ];
 /// Texts of the summary in the table of trials.
 const TEXTS: [(&str, &str); 8] = [

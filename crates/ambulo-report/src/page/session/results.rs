@@ -26,7 +26,7 @@ pub(super) struct AllRows {
 }
 
 impl AllRows {
-    /// Of a folder whose `kinematics.mot` has all rows.
+    /// Reads a folder whose `kinematics.mot` has all rows.
     pub(super) fn read(folder: &Folder<'_>, kinematics: &Table) -> Result<AllRows, ResultsError> {
         let events = folder.events()?.iter().map(page_event).collect::<Vec<_>>();
         let curves = folder.cycles()?;
@@ -36,7 +36,7 @@ impl AllRows {
     }
 }
 
-/// Of a table of time series, the first of this many rows is drawn.
+/// Step between the drawn rows of a table of time series.
 pub(super) fn step(table: &Table) -> usize {
     table.rows().div_ceil(MOST_INSTANTS).max(1)
 }
@@ -57,7 +57,7 @@ pub(super) struct Results {
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
-    /// Of the rows of the files, the first of this many is drawn.
+    /// Step between the drawn rows of the files.
     pub(super) step: usize,
     /// The name of the model file, and the model.
     pub(super) body: Option<(&'static str, Model)>,

@@ -2,11 +2,11 @@
 //!
 //! FORCE_PLATFORM:CORNERS states the axes of a plate by the order of its corners. Of the eight orders that keep
 //! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at
-//! a distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the
-//! plate. Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre
-//! in every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the
-//! agreement r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the
-//! correlation s.
+//! a distance d from the line from heel to toe. The others turn or reverse its path about the middle of the plate.
+//! Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre in
+//! every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the agreement
+//! r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the correlation
+//! s.
 //!
 //! ```text
 //! cost = (d / 30 mm)² + ((1 - r₁) / 0.3)² + ((1 - r₂) / 0.5)²
@@ -15,7 +15,7 @@
 //! In 194 plates of 111 clean recordings (9 laboratories) d is 3 to 29 mm, r₁ 0.85 to 1, r₂ 0.5 to 1 with one exception
 //! each, and the true order has the least cost of the eight in all of them.
 //!
-//! An order is changed only if that of the file fails clearly, also by its centre of pressure: a channel with the wrong
+//! An order is changed only if the file's order fails clearly, also by its centre of pressure: a channel with the wrong
 //! sign alone is no matter of corners. All plates are judged together first, because a laboratory makes the same error
 //! with all of them, then each alone.
 //! Pinned by: tests/plate_orders.rs
@@ -42,7 +42,7 @@ const LEADS: f64 = 0.5;
 /// An order is right below this cost and this distance [m].
 const RIGHT: f64 = 12.0;
 const RIGHT_M: f64 = 0.05;
-/// The right order has a cost that is less than that of the next by this.
+/// The cost of the right order is at least this much below the cost of the next order.
 const DISTINCT: f64 = 1.0;
 /// Distances are counted up to this [m].
 const FARTHEST_M: f64 = 0.4;
@@ -50,10 +50,10 @@ const FARTHEST_M: f64 = 0.4;
 const STEP_S: [f64; 2] = [0.15, 1.6];
 /// Loads from this share of the largest force of the plates show the centre of pressure.
 const SOLID: f64 = 0.3;
-/// Samples that are looked at in a step.
+/// Number of samples evaluated per step.
 const SAMPLES: usize = 40;
 
-/// How the loads of some plates lie with their corners in one order.
+/// Fit of the loads of some plates to the feet, with one order of corners.
 #[derive(Debug, Clone, Copy, Default)]
 struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
@@ -110,9 +110,9 @@ impl Fit {
 /// A plate with loads of whole steps.
 struct Loaded {
     plate: usize,
-    /// One per order.
+    /// Fits, one per order of the corners.
     fits: Vec<Fit>,
-    /// Whether its force was found to be that of the foot on the plate, so that all signs were reversed.
+    /// Whether the file has the force of the foot on the plate, so that all signs were reversed.
     is_reversed: bool,
 }
 
@@ -155,7 +155,7 @@ fn loaded(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, soli
     fits.filter(|fits| fits.iter().all(|fit| fit.count > 0.0)).map(|fits| Loaded { plate, fits, is_reversed: false })
 }
 
-/// The order that is right for all of these plates where that of the file fails, and whether it is the only one.
+/// The order that is right for all of these plates where the file's order fails, and whether it is the only one.
 fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let is_right = |order: &usize| plates.iter().all(|plate| plate.fits[*order].is_right());
     // The centre of pressure runs from heel to toe; no wrong sign of a force turns its way round.
@@ -201,7 +201,7 @@ fn excerpt(plate: &PlateRecording, samples: &[usize]) -> PlateRecording {
     }
 }
 
-/// How the loads of all samples lie.
+/// Fit of the loads of all samples.
 fn fit(feet: &FeetInMotion<'_>, plate: &PlateRecording) -> Fit {
     let mut fit = Fit::default();
     for i in 0..plate.times.len() {

@@ -18,7 +18,7 @@ const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 pub(crate) struct FeetInMotion<'a> {
     /// The markers.
     pub markers: &'a MarkerRecording,
-    /// Which of them are on the feet.
+    /// Landmarks of the feet among the markers.
     pub landmarks: Landmarks,
     /// Their strikes and offs.
     pub motion: &'a FootMotion,
@@ -109,7 +109,7 @@ impl FeetInMotion<'_> {
     }
 }
 
-/// By how much the lower end of a foot is above or below the heights of a foot on the plate [m].
+/// Distance of the lower end of a foot above or below the heights of a foot on the plate [m].
 fn off_level_m(line: &[Vec3; 2], plate: &PlateRecording) -> f64 {
     let height = |p: &Vec3| (p - plate.center()).dot(&plate.up);
     let lower = height(&line[0]).min(height(&line[1]));

@@ -1,4 +1,4 @@
-//! Assigns force plates to feet, and finds out whether a plate measured all of a foot's load.
+//! Assigns force plates to feet, and determines whether a plate measured all of a foot's load.
 //!
 //! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
 //! toe is nearest to the centre of pressure, averaged over the load, within 0.2 m (the limit in the documentation of
@@ -105,8 +105,8 @@ pub(crate) struct SilentStance {
     pub span: [f64; 2],
 }
 
-/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without
-/// cross-talk of one plate in another.
+/// Corrects plates by the feet on them: puts the corners into the order with which the loads are under the feet, and
+/// removes cross-talk between plates.
 #[must_use]
 pub fn plates_under_feet(
     markers: &MarkerRecording,

@@ -29,8 +29,10 @@ pub enum Measure {
     SilentPlates,
     /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
     ForceDirections,
-    /// Distance of markers or joints from the fitted body.
+    /// Distance of the markers or joints of pelvis and legs from the fitted body.
     MarkerFit,
+    /// Distance of the markers or joints of trunk and head from the fitted body.
+    TrunkFit,
     /// Distance of standing markers from the scaled model.
     Scaling,
     /// Ratio of scale factors.
@@ -91,6 +93,7 @@ impl Measure {
         Measure::SilentPlates,
         Measure::ForceDirections,
         Measure::MarkerFit,
+        Measure::TrunkFit,
         Measure::Scaling,
         Measure::ScaleFactors,
         Measure::WhoseMarkers,
@@ -125,6 +128,7 @@ impl Measure {
             Measure::SilentPlates => AtMost(0.0, 0.9),
             Measure::ForceDirections => AtLeast(0.6, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
+            Measure::TrunkFit => AtMost(0.04, 1.0),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
             Measure::WhoseMarkers => AtMost(0.0, 3.0),
@@ -163,18 +167,14 @@ impl Measure {
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
-            Measure::UnmeasuredLeg => {
-                "1 if a leg stood on force plates and none of its stances was measured, while those of the other leg \
-                 were"
-            }
+            Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
-            Measure::MarkerFit => {
-                "distance of markers or joints from the fitted body, rms; of legs and pelvis, or trunk, if it is worse"
-            }
+            Measure::MarkerFit => "distance of the markers or joints of pelvis and legs from the fitted body, rms",
+            Measure::TrunkFit => "distance of the markers or joints of trunk and head from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
             Measure::WhoseMarkers => {
@@ -187,9 +187,7 @@ impl Measure {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"
             }
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
-            Measure::Sliding => {
-                "speed along the ground of soles that carry at least half the body weight, lower quartile"
-            }
+            Measure::Sliding => "speed along the ground of soles that carry half the body weight, lower quartile",
             Measure::CenterOfPressure => {
                 "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
                  one"
@@ -225,7 +223,11 @@ impl Measure {
         match self {
             Measure::ResidualForce => "BW",
             Measure::ResidualMoment => "N.m/kg",
-            Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure | Measure::StanceHeight => "m",
+            Measure::MarkerFit
+            | Measure::TrunkFit
+            | Measure::Scaling
+            | Measure::CenterOfPressure
+            | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",
             Measure::ForceDelay => "s",

@@ -1,8 +1,8 @@
 //! The delay between force plates and motion.
 //!
-//! Forces that are shifted by s are compared with what the motion needs, over the frames in which every loaded foot is
-//! measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where both belong
-//! together:
+//! The measured forces are shifted by s and compared with the forces that the motion requires, over the frames in which
+//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where forces and motion
+//! are synchronous:
 //!
 //!   r = argmin F²(s)/F²(0) + M²(s)/M²(0),   |s| ≤ 0.15 s
 //!
@@ -11,7 +11,7 @@
 //!
 //!   d = ((r - r₀) + e) / 2
 //!
-//! Both scatter: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
+//! Both vary: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
 //! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the
 //! bones late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and
 //! one frame and the residuals fall by a tenth at their minimum, neither of them rising; by a twentieth if both
