@@ -82,7 +82,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 28] = [
+    pub const ALL: [Measure; 29] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
