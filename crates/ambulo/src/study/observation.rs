@@ -440,7 +440,13 @@ impl Statements {
         let smoothing = SmoothSettings { smoother: settings.smoother, window: whole, rate_hz: None };
         let smoothed = smooth(model, &body.fit.motion, smoothing, ignored).map_err(AnalysisError::Motion)?;
         let trajectory = Trajectory::complete(model, smoothed, ignored).map_err(AnalysisError::Trajectory)?;
-        Ok(Carried::new(model, &trajectory, &forces, &body.subject.person.soles, Some(&body)).estimates())
+        let subject = &body.subject;
+        let weighed = |body: Option<&BodyInMotion>| {
+            Carried::new(model, &trajectory, &forces, &subject.person.soles, body).estimates()
+        };
+        let of_plates = weighed(Some(&body));
+        // Plates that are late measure no foot from strike to off; their loads weigh the person all the same.
+        Ok(if of_plates.is_empty() { weighed(None) } else { of_plates })
     }
 
     /// The body, calibrated, scaled or as it is, following the markers.

@@ -171,20 +171,6 @@ fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let nearer_m = (away_m(0) - away_m(best)) / plates.len() as f64;
     let is_moved = nearer_m > NEARER_M || runs_back(0) && runs_forth(best) || turns_over(best) && nearer_m > -SAME_M;
     let fails = cost(0) > cost(best) + FAILS && is_moved;
-    for p in plates {
-        for (k, f) in p.fits.iter().enumerate() {
-            eprintln!(
-                "DBG corners plate {} order {k} d {:.1} r {:.2} {:.2} path {:.2} cost {:.1} rev {}",
-                p.plate + 1,
-                1e3 * f.distance_m(),
-                f.lever.agreement(0),
-                f.lever.agreement(1),
-                f.path.correlation(),
-                f.cost(),
-                p.is_reversed
-            );
-        }
-    }
     let is_distinct = right.get(1).is_none_or(|next| cost(*next) > cost(best) + DISTINCT);
     fails.then_some((best, is_distinct))
 }
