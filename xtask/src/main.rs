@@ -68,7 +68,8 @@ usage: cargo xtask <command>
                     [--evaluations N] [--seed N] [--pull X]
   keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
-  twins             judge recordings, and altered copies of them that no person could make  [--only NAME]
+  twins             judge recordings, and altered copies of them: faults of laboratories, motions that no person could make, plates
+                    that were taken away  [--only NAME] [--fault NAME] [--write: docs/measured/TWINS.md]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
@@ -134,6 +135,9 @@ const MISUSED: u8 = 2;
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "help and errors of the automation go to the terminal")]
 fn main() -> ExitCode {
+    if let Some(code) = check::in_place_of_compiler() {
+        return code;
+    }
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {

@@ -10,6 +10,7 @@
 //! | [`model`] | bodies, joints, coordinates, markers and anatomy |
 //! | [`motion`] | recordings of markers, coordinates, skeletons, force plates and sensors |
 //! | [`kinematics`] | from markers to coordinates, and from coordinates to the motion of all bodies |
+//! | [`technical_markers`] | markers without a known name, by the segment with which they move |
 //! | [`contact`] | contact points, friction, rigid and compliant laws |
 //! | [`dynamics`] | inverse dynamics, and bodies under constraints |
 
@@ -25,6 +26,7 @@ pub mod model;
 pub mod motion;
 
 pub mod kinematics;
+pub mod technical_markers;
 
 pub mod contact;
 

@@ -82,7 +82,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// A part of a file, which may be larger than what is read as a whole; shorter where the file ends.
+/// A part of a file of any size; shorter at the end of the file.
 fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Result<Vec<u8>> {
     let shown = path.display();
     if let Some(content) = caller.content(path) {

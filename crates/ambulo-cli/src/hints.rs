@@ -1,6 +1,6 @@
 //! Hints for errors and findings of the library: the command-line options that help.
 //!
-//! The library knows no options. Its errors and findings carry data; this table adds the hint.
+//! The library has no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
@@ -8,6 +8,7 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
+use ambulo::kinematics::calibration::CalibrationError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
@@ -37,6 +38,10 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
         Code::LoadsUnassigned => "`--right BODY:PREFIX` and `--left BODY:PREFIX` state the columns of each foot",
         Code::LoadsFarFromFoot => "without a loads file, `--right` and `--left` choose the bodies",
         Code::ForcesDelayed => "`--force-delay S` shifts them by the delay in the message",
+        Code::MarkersUnused | Code::MarkersByPlace => {
+            "`ambulo info STANDING --markers mine.toml` writes the markers with their meaning; correct the file, then \
+             give it with `--markers mine.toml`"
+        }
         Code::MarkersWindow => "`--max-gap` allows longer gaps, `--from` and `--to` choose another time range",
         Code::B3dForceMissing => {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
@@ -56,7 +61,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     Some(hint)
 }
 
-/// The hint for an error: that of the first of its causes that has one, and the options of the fields that it is about.
+/// The hint for an error: the hint of its first cause that has one, and the options of the fields that it is about.
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
@@ -108,6 +113,7 @@ fn option(field: Field) -> Option<&'static str> {
         Field::Gap => "`--max-gap S`",
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
+        Field::Hip => "`--hip harrington|hara|bell|plug-in-gait`",
         Field::ResidualReduction => "`--consistent`",
     };
     Some(option)
@@ -146,6 +152,12 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
+        StudyError::Markers(
+            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(CalibrationError::Markers { .. }),
+        ) => Some(
+            "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
+             file, then give it with `--markers mine.toml`",
+        ),
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

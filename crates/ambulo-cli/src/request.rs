@@ -1,7 +1,7 @@
 //! Requests: a verb with its files and settings as values, and the same as JSON.
 //!
 //! The command line is parsed into these values; programs and the page in the browser state them in JSON
-//! (docs/REQUESTS.md). Names of fields are those of the types; a field that is left out has the default of its option.
+//! (docs/REQUESTS.md). Fields are named as in the types; a field that is left out has the default of its option.
 
 use crate::args::{
     BatchArgs, DemoArgs, EventsArgs, Existing, Handling, OUT, Outputs, SessionArgs, SimulateArgs, SweepArgs,
@@ -133,7 +133,7 @@ impl ForcesRequest {
         self.job.trial.as_deref() == Some(ForcesRequest::ALL_TRIALS)
     }
 
-    /// What is written.
+    /// Settings of the files to write.
     pub(crate) fn outputs(&self) -> Outputs {
         Outputs { convention: self.convention, keep: self.keep.clone() }
     }
@@ -143,7 +143,7 @@ impl CalibrateRequest {
     /// The file for the calibration, if none is given.
     pub(crate) const OUTPUT: &'static str = "person.toml";
 
-    /// The same for JSON.
+    /// [`CalibrateRequest::OUTPUT`] as the default of a field in JSON.
     fn output() -> PathBuf {
         CalibrateRequest::OUTPUT.into()
     }
@@ -205,7 +205,7 @@ impl From<CalibrateRequest> for Request {
     }
 }
 
-/// What a request computes.
+/// Result of a request.
 pub enum Answer {
     /// Tables, summary and page.
     Results(Box<commands::Results>),
@@ -286,7 +286,7 @@ impl Request {
     /// Computes the request and returns its results. Only a batch and a session write files.
     ///
     /// # Errors
-    /// Those of the command; a computation that the caller stopped; a verb that only writes files.
+    /// Errors of the command; a computation that the caller stopped; a verb that only writes files.
     pub fn compute(&self, existing: Existing, caller: &Caller) -> Result<Answer, Failure> {
         let files = self.files();
         let computed = self.handled(Handling::quiet(existing)).computed(caller);
@@ -325,7 +325,7 @@ impl Request {
         Ok(Answer::Results(Box::new(results)))
     }
 
-    /// The same request, handled in another way.
+    /// The request with other handling of files and messages.
     fn handled(&self, how: Handling) -> Request {
         let Handling { replace, check, print } = how;
         let mut request = self.clone();

@@ -112,7 +112,9 @@ fn unknown_marker_names_are_listed_with_the_required_ones() {
     markers("broken.toml").refused(&["broken.toml: line 2: this is not TOML", "docs/MARKERS.md"]);
     bench.write("odd.toml", "name = \"mine\"\ncolour = 3\n");
     markers("odd.toml").refused(&["odd.toml", "colour"]);
-    markers("rajagopal").refused(&["standing.c3d: the legs cannot be found", "found asis r", "docs/MARKERS.md"]);
+    // A set adds to the others, so that one with few of the names spoils nothing.
+    let run = markers("rajagopal").done();
+    assert!(run.stdout.contains("(rajagopal, plug-in-gait"), "{}", run.stdout);
 }
 
 #[test]

@@ -15,11 +15,11 @@ pub enum Error {
     /// The content is of another format than the name of the file states.
     #[error("the content is {found}; expected {expected}. hint: {remedy}")]
     OtherContent {
-        /// What the content is.
+        /// Format of the content.
         found: &'static str,
         /// The format that is read.
         expected: &'static str,
-        /// How to get it.
+        /// Remedy: how to get the expected content.
         remedy: &'static str,
     },
     /// A line of a text file does not follow the format.

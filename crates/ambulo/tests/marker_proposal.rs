@@ -92,7 +92,7 @@ fn a_template_is_read_back_as_a_set_with_the_same_meaning() {
     let found = propose_markers(&walk, Some(&recognised(&walk)), Heading::Walking);
     let text = marker_template("a walk\nwith two lines", &found.markers, &found.proposed, &found.unknown);
     let set = MarkerSet::from_toml(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let again = RecognisedMarkers::among(&[set], walk.markers.iter().map(|m| m.name.as_str())).unwrap();
+    let again = RecognisedMarkers::with(Some(&set), walk.markers.iter().map(|m| m.name.as_str())).unwrap();
     for marker in &found.markers {
         let same = again.markers.iter().find(|known| known.name == marker.name).unwrap();
         let (a, b) = (&same.definition, &marker.definition);

@@ -159,6 +159,24 @@ fn a_second_marker_on_a_landmark_is_technical() {
 }
 
 #[test]
+fn a_custom_set_adds_to_the_built_in_ones_and_its_landmarks_win() {
+    let text = "name = 'mine'\n[[single]]\nnames = 'own knee'\nside = 'right'\nlandmark = 'lateral_epicondyle'\n\
+                [[single]]\nnames = 'LTHI'\nside = 'left'\nsegment = 'tibia'";
+    let set = MarkerSet::from_toml(text).unwrap();
+    let names = ["RASI", "LASI", "SACR", "RKNE", "LKNE", "RANK", "LTHI", "own knee", "nothing"];
+    let found = RecognisedMarkers::with(Some(&set), names).unwrap();
+    assert_eq!(found.sets[..2], ["mine", "plug-in-gait"]);
+    assert_eq!(found.unknown, ["nothing"]);
+    let of = |name: &str| landmark(&found, name);
+    assert_eq!(of("own knee"), Some((Some(Landmark::LateralEpicondyle), Some(Side::Right))));
+    assert_eq!(of("RKNE"), Some((None, Some(Side::Right))), "the second marker on a landmark is technical");
+    assert_eq!(of("LKNE"), Some((Some(Landmark::LateralEpicondyle), Some(Side::Left))));
+    assert_eq!(of("LTHI"), Some((None, Some(Side::Left))));
+    let thigh = found.markers.iter().find(|marker| marker.name == "LTHI").unwrap();
+    assert_eq!(thigh.definition.segment, Segment::Tibia);
+}
+
+#[test]
 fn a_custom_set_is_read_and_its_errors_are_stated() {
     let text = "name = 'mine'\n[[pair]]\nright = 'kr'\nleft = ['kl', 'knee left']\nlandmark = 'lateral_epicondyle'\n\
                 [[single]]\nnames = 'x1'\nsegment = 'femur'\nside = 'left'\nplace = [0, -0.5, 0.1]\nweight = 2";
@@ -206,7 +224,7 @@ type Case = (&'static str, &'static str, &'static [(&'static str, Landmark)]);
 fn names_of_other_laboratories_mean_what_they_say() {
     use Landmark as L;
     let right = Some(Side::Right);
-    let cases: [Case; 8] = [
+    let cases: [Case; 11] = [
         // OpenCap's laboratory names, as in keenon/nimblephysics data/grf/OpenCapUnfiltered.
         (
             "opencap",
@@ -218,6 +236,30 @@ fn names_of_other_laboratories_mean_what_they_say() {
                 ("r_mankle", L::MedialMalleolus),
                 ("r_calc", L::Heel),
                 ("r_5meta", L::FifthMetatarsal),
+            ],
+        ),
+        (
+            "cmu",
+            "ARIEL C7 LFSH RFSH LUPA RUPA LELB RELB LIEL RIEL LIWR RIWR CLAV T10 STRN LFWT RFWT LBWT RBWT LMWT RMWT LKNE \
+             LKNI RKNE RKNI LSHN RSHN LANK LANI RANK RANI LHEL RHEL LMT5 RMT5 LMT1 RMT1 LTOE RTOE",
+            &[("RKNI", L::MedialEpicondyle), ("RANI", L::MedialMalleolus), ("RIEL", L::MedialElbow), ("RHEL", L::Heel)],
+        ),
+        (
+            "words",
+            "LFrontAsis RFrontAsis LBackAsis RBackAsis LKneeOut RKneeOut LKneeIn RKneeIn LAnkleOut RAnkleOut LHeel RHeel \
+             LMeta5 RMeta5",
+            &[("RFrontAsis", L::Asis), ("RBackAsis", L::Psis), ("RKneeIn", L::MedialEpicondyle)],
+        ),
+        (
+            "bones",
+            "Hips RightThigh RightLeg RightFoot RightToe LeftThigh LeftLeg LeftFoot LeftToe Spine Neck Head RightArm \
+             RightForeArm RightHand LeftArm LeftForeArm LeftHand",
+            &[
+                ("RightThigh", L::HipCentre),
+                ("RightLeg", L::KneeCentre),
+                ("RightFoot", L::AnkleCentre),
+                ("RightArm", L::ShoulderCentre),
+                ("RightHand", L::WristCentre),
             ],
         ),
         (

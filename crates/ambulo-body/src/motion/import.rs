@@ -82,7 +82,7 @@ fn unstated_unit(model: &Model, table: &Table) -> bool {
     table.columns().skip(1).filter_map(of_coordinate).any(|usual| usual > LARGEST_PLAUSIBLE_ANGLE)
 }
 
-/// The coordinate with this name; if there is none, the only one with this name in other letters.
+/// The coordinate with this name; otherwise the only coordinate with this name apart from upper and lower case.
 fn coordinate_named(model: &Model, name: &str) -> Option<CoordinateId> {
     let is_same = |id: &CoordinateId| model.coordinates()[id.index()].name.eq_ignore_ascii_case(name);
     let mut others = model.coordinate_ids().filter(is_same);

@@ -84,9 +84,8 @@ impl Landmarks {
         let names = || recording.markers.iter().map(|m| m.name.as_str());
         let usual = Landmarks::usual(recording);
         let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names()).ok(),
             None if usual.is_complete() => None,
-            None => MarkerSet::recognise(names()).ok(),
+            own => RecognisedMarkers::with(own, names()).ok(),
         };
         let Some(recognised) = recognised else { return usual };
         let found = Landmarks::recognised(&names().collect::<Vec<_>>(), &recognised);
@@ -99,7 +98,7 @@ impl Landmarks {
         is_foot(&self.right) && is_foot(&self.left) && self.asis_r.is_some() && self.asis_l.is_some()
     }
 
-    /// These landmarks, and those of `other` that are missing.
+    /// These landmarks; missing ones are taken from `other`.
     fn or(self, other: Landmarks) -> Landmarks {
         let foot = |own: FootMarkers, other: FootMarkers| FootMarkers {
             heel: own.heel.or(other.heel),

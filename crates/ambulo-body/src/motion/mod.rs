@@ -73,4 +73,4 @@ pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use smpl::{SmplBody, SmplError, SmplMotion};
 pub use straightened::straightened;
 pub use subject_parameters::{SubjectParameters, subject_from_c3d};
-pub use time_grid::{TimeGrid, Window, interpolate};
+pub use time_grid::{Between, TimeGrid, Window, interpolate};

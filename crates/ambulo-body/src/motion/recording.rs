@@ -75,7 +75,7 @@ pub enum MotionError {
         found: String,
         /// The model's coordinates.
         known: String,
-        /// Whether the columns are named as those of forces and centres of pressure are.
+        /// Whether the columns are named like forces and centres of pressure.
         are_forces: bool,
     },
     /// A required column of a force recording is missing.
@@ -231,7 +231,7 @@ pub enum MotionError {
         /// End of the recording [s].
         last_s: f64,
     },
-    /// Motion and forces with hardly any common time.
+    /// Motion and forces with almost no common time.
     #[error(
         "motion and forces have {} in common: the motion lasts from {:.3} s to {:.3} s, the forces from {:.3} s to \
          {:.3} s. hint: give both the same origin of time, or choose the forces of this trial",

@@ -299,7 +299,7 @@ impl BandFactor {
 
 impl BandMatrix {
     /// The product y = A x of the block of rows and columns from `first` on, as many as x has, which is no more than
-    /// w + 1. Each row is read once, for its own entry and for those of the columns.
+    /// w + 1. Each row is read once, for its own entry of y and for the entries of the columns.
     fn multiply(&self, first: usize, x: &[f64], y: &mut [f64]) {
         for (i, own) in x.iter().enumerate() {
             let start = self.at(first + i, first);

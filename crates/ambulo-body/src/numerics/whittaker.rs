@@ -72,7 +72,7 @@ impl Whittaker {
         Some(SmoothingFactor(rows))
     }
 
-    /// Replaces a series by its smooth one, with equal weights. A λ that is no finite number leaves it as it is.
+    /// Replaces a series by its smooth one, with equal weights. With a λ that is not finite, nothing changes.
     pub fn smooth(&self, lambda: f64, series: &mut [f64]) {
         if let Some(factor) = self.factor(None, lambda) {
             factor.solve(series);

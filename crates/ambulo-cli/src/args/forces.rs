@@ -10,6 +10,7 @@ use ambulo::job::{
     Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, ForceFiles, HeadingAxis, Job, MarkerFitting, ModelChoice,
     PlateFoot, Processing, SensorStatements,
 };
+use ambulo::kinematics::calibration::HipRegression;
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::Window;
@@ -164,7 +165,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) print: PrintArgs,
 }
 
-/// What is written of a run.
+/// Settings of the files that a run writes.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
     /// How angles of pelvis and hips are measured.
@@ -345,6 +346,11 @@ pub(crate) struct SubjectArgs {
     /// for markers, trajectory for keypoints of video].
     #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
     pub(crate) fit: Option<MarkerFitting>,
+    /// Centres of the hips of the built-in body: harrington (pelvis width and depth), hara (leg length), bell (pelvis
+    /// width) or plug-in-gait (Davis; leg length, pelvis width). docs/MARKERS.md has the equations and their errors.
+    #[arg(long, value_name = "NAME", default_value = HipRegression::default().word(),
+        value_parser = one_of(&HipRegression::ALL))]
+    pub(crate) hip: HipRegression,
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s,
         value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
@@ -383,6 +389,7 @@ impl SubjectArgs {
         Processing {
             fit: self.fit,
             longest_gap_s: self.max_gap,
+            hip: self.hip,
             force_delay_s: self.force_delay,
             ..Processing::default()
         }

@@ -18,7 +18,7 @@ pub(crate) struct TrialWords {
     pub(crate) words: Vec<OsString>,
     /// The job of all trials; each has its own recording.
     pub(crate) job: Job,
-    /// What is written of a trial.
+    /// Settings of the files that a trial writes.
     pub(crate) outputs: Outputs,
 }
 
@@ -48,7 +48,7 @@ impl TrialWords {
         TrialWords { words: words(&job, &outputs), job, outputs }
     }
 
-    /// The words with each value in a word of its own: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
+    /// The words with each value as a separate word: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
     pub(crate) fn apart(&self) -> Vec<OsString> {
         let split = |word: &OsString| -> Vec<OsString> {
             let option = word.to_str().filter(|word| word.starts_with("--")).and_then(|word| word.split_once('='));

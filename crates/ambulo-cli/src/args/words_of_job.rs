@@ -5,6 +5,7 @@ use super::forces::Outputs;
 use super::words::Words;
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, Processing};
+use ambulo::kinematics::calibration::HipRegression;
 use ambulo::study::GroundSettings;
 use ambulo_results::Convention;
 use std::ffi::OsString;
@@ -47,6 +48,7 @@ fn of_settings(settings: &Processing, words: &mut Words) {
     words.flag("--no-ground", settings.ground == GroundSettings::NoContact);
     words.flag("--refit", settings.refit);
     words.value("--fit", settings.fit.map(|fit| word(&MarkerFitting::ALL, fit)));
+    words.value("--hip", Some(settings.hip).filter(|hip| *hip != defaults.hip).map(HipRegression::word));
     let gap = Some(settings.longest_gap_s).filter(|gap| gap.to_bits() != defaults.longest_gap_s.to_bits());
     words.value("--max-gap", gap);
     words.value("--from", settings.window.from_s);

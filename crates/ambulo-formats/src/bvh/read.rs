@@ -39,7 +39,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Bvh, Vec<Remark>
 struct Words<'a> {
     lines: Lines<'a>,
     line: Option<Line<'a>>,
-    /// Where the search for the next word starts in the text of `line` [bytes].
+    /// Byte in the text of `line` at which the search for the next word starts.
     at: usize,
 }
 

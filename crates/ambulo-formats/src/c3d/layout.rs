@@ -27,7 +27,7 @@ pub(super) struct Layout {
 /// Bytes of the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
-    /// All of them.
+    /// Size of the file [bytes].
     pub(super) size: usize,
     /// First byte after the blocks of the parameter section.
     pub(super) after_parameters: usize,
@@ -88,7 +88,7 @@ pub(super) fn decide(
         first_frame: 1,
         point_rate_hz,
     };
-    // Rotations have their own section, usually behind that of the points.
+    // Rotations have their own section, usually after the section of the points.
     let end = rotation_offset(parameters).filter(|&start| start > data_offset).unwrap_or(file.size);
     let room = end.min(file.size).saturating_sub(data_offset);
     let question = Question { header, parameters, scales: &scales, frames: &frame_claims, room };
@@ -161,7 +161,7 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "a frame rate above zero".into() })
 }
 
-/// The frame rate of a file whose header states another one than `POINT:RATE`: that of the header if the rate of the
+/// The frame rate of a file whose header and `POINT:RATE` differ: the rate of the header if the rate of the
 /// analog channels, over the samples per frame, agrees with it and not with the parameter.
 fn contradicted_rate(
     parameter: f64,

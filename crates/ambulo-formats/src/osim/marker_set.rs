@@ -108,7 +108,7 @@ impl OsimModel {
     /// of the model stay.
     ///
     /// # Errors
-    /// A marker on a body or frame that the model does not have; the line is that of the set's document.
+    /// A marker on a body or frame that the model does not have; the line refers to the set's document.
     pub fn with_marker_set(mut self, set: &OsimMarkerSet) -> Result<OsimModel, Error> {
         for marker in &set.markers {
             let frame = self.frame_at(&marker.frame).ok_or_else(|| self.unknown_frame(marker))?;

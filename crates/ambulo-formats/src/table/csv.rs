@@ -64,7 +64,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remar
     Ok((table, remarks))
 }
 
-/// Bytes of a file in which its decimal mark is looked for.
+/// Number of bytes of a file that are searched for its decimal mark.
 const HEAD_BYTES: usize = 1 << 18;
 
 /// The row of column names, and the number of lines above it: comments, and the line `sep=;` of Excel.

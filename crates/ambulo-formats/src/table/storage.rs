@@ -264,7 +264,7 @@ fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) ->
     Ok(empty)
 }
 
-/// Reads a row with empty cells between its tabs; returns their number. `None` if the cells are not those of the table.
+/// Reads a row with empty cells between its tabs; returns their number. `None` if the cells do not fit the table.
 fn read_cells(line: &Line<'_>, table: &mut Table) -> Option<usize> {
     let (rows, width) = (table.lines.len(), table.data.len());
     let mut cells: Vec<&str> = line.text.split('\t').map(str::trim).collect();

@@ -79,6 +79,7 @@ def forces(
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
+    hip: str | None = None,
     max_gap: float | None = None,
     convention: str | None = None,
     start: float | None = None,
@@ -151,6 +152,8 @@ def forces(
         Markers for the model: an OpenSim MarkerSet.
     fit : {"frames", "trajectory"}, optional
         How markers are fitted: frame by frame, or all frames together, which is the default for keypoints of video.
+    hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
+        Regression of the hip centres of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     convention : {"clinical", "opensim"}, optional
@@ -230,6 +233,7 @@ def forces(
         "subject": subject,
         "markers": markers,
         "fit": fit,
+        "hip": hip,
         "max_gap": max_gap,
         "convention": convention,
         "start": start,
@@ -295,6 +299,7 @@ def calibrate_person(
     marker_set: _Path | bytes | None = None,
     plates: Mapping[int, str] | None = None,
     fit: str | None = None,
+    hip: str | None = None,
     max_gap: float | None = None,
     force_delay: float | None = None,
 ) -> Person:
@@ -332,6 +337,8 @@ def calibrate_person(
         Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
     fit : {"frames", "trajectory"}, optional
         How markers are fitted.
+    hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
+        Regression of the hip centres of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     force_delay : float, optional
@@ -374,6 +381,7 @@ def calibrate_person(
         "subject": subject,
         "markers": markers,
         "fit": fit,
+        "hip": hip,
         "max_gap": max_gap,
         "force_delay": force_delay,
     }

@@ -10,7 +10,9 @@ use super::ground_agreement::PlateCoverage;
 use super::identity;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
+use super::marker_use::report_use;
 use super::progress::{Progress, Stage};
+use super::segment_angles::knee_angles;
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
@@ -22,7 +24,7 @@ use crate::kinematics::marker_fit::{
 };
 use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
 use crate::model::marker_set::MarkerSet;
-use crate::model::{Drive, Model, Side};
+use crate::model::{BySide, Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
 use crate::motion::{Laboratory, Landmarks};
@@ -38,6 +40,8 @@ pub struct BodyInMotion {
     pub plates: Vec<PlateRecording>,
     /// The coordinates, and the errors of the fit.
     pub fit: MarkerFit,
+    /// Number of the markers of the recording; those that the body follows have errors in the fit.
+    pub recorded_markers: usize,
     /// Foot strikes and foot offs from the markers.
     pub feet: FootMotion,
     /// Which foot was on which plate.
@@ -46,6 +50,9 @@ pub struct BodyInMotion {
     pub keypoints: Option<KeypointReport>,
     /// What contradicts the labels of the markers or the standing trial, one sentence each.
     pub contradictions: Vec<String>,
+    /// Varus and internal rotation of the knees from the markers of thigh and shank alone, in the frames of the
+    /// recording [rad]; `None` where they do not suffice, or where the knee of the body turns in these planes itself.
+    pub knees: BySide<Option<[Vec<f64>; 2]>>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -101,6 +108,7 @@ pub(crate) fn fit_body_to_markers(
     progress.end(Stage::Body)?;
     let settings = settings_of(&subject, settings);
     let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
+    let recorded_markers = report_use(&subject, &fit, (&followed, set), findings);
     if let (Some(standing), None) = (&standing, &keypoints) {
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
@@ -111,7 +119,13 @@ pub(crate) fn fit_body_to_markers(
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
-    Ok(BodyInMotion { keypoints, contradictions, ..on_floor.body_in_motion(subject, fit, findings, progress)? })
+    let knees = match keypoints {
+        // Key points are joint centres, which do not show how a segment turns.
+        Some(_) => BySide::default(),
+        None => knee_angles(&subject.model, &followed, &fit.motion),
+    };
+    let moving = on_floor.body_in_motion(subject, fit, findings, progress)?;
+    Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, ..moving })
 }
 
 impl MarkerTrial<'_> {
@@ -133,11 +147,12 @@ impl MarkerTrial<'_> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
         let calibrated =
             |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
-        // A body that needs the motion besides the standing trial is not that of the other motions.
-        match (standing, self.bodies) {
+        // A body that also needs markers of this motion cannot be shared with other motions.
+        let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
-        }
+        };
+        Ok(self.with_technical_markers(subject?, moving, standing, findings))
     }
 }
 
@@ -197,11 +212,13 @@ impl OnFloor<'_> {
             subject,
             laboratory: axes,
             plates,
+            recorded_markers: fit.errors.len(),
             fit,
             feet,
             on_plates,
             keypoints: None,
             contradictions: Vec::new(),
+            knees: BySide::default(),
         })
     }
 }
@@ -249,7 +266,7 @@ fn during(poses: &SegmentPoses, points: &MarkerRecording) -> SegmentPoses {
     poses.cut(poses.times.partition_point(|time| *time < first), points.frames())
 }
 
-/// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
+/// Gives coordinates that no marker determines, such as toe angles, the default value of the model.
 fn use_defaults_without_markers(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     /// Most names in a message.
     const MOST: usize = 6;

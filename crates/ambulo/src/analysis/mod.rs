@@ -13,6 +13,7 @@ pub(crate) mod identity;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
+mod marker_use;
 mod peaks;
 mod plausibility;
 mod predicted;
@@ -21,6 +22,8 @@ pub(crate) mod progress;
 pub(crate) mod recording;
 mod residual;
 mod residual_reduction;
+pub(crate) mod segment_angles;
+mod stance_load;
 mod subject;
 pub(crate) mod times_and_distances;
 mod tracked;
@@ -62,6 +65,7 @@ pub(crate) use recording::{analyse_measured, recorded_trajectory, trajectory_of_
 pub use residual::{Residual, residual, residual_sizes};
 pub use residual_reduction::Adjustable;
 pub(crate) use residual_reduction::reduce_residual;
+pub use stance_load::stance_load;
 #[doc(hidden)]
 pub use subject::{BodySource, Subject};
 pub use subject::{MarkerTrialError, ModelProtocol};

@@ -1,19 +1,20 @@
-//! The body that is fitted to markers: where it comes from, and how it is made.
+//! The body that is fitted to markers, and its sources: a model, a marker set, a protocol or a standing trial.
 
 use super::feasibility::Person;
 use super::identity::completed;
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::Stopped;
 use crate::findings::{Code, Findings};
-use crate::kinematics::calibration::{self, CalibrationError, CalibrationReport, Trial, calibrate};
+use crate::kinematics::calibration::{self, Calibrated, CalibrationError, CalibrationReport, Trial, calibrate};
 use crate::kinematics::marker_fit::FitError;
+use crate::kinematics::marker_proposal::markers_at_joints;
 use crate::kinematics::pose_fit::{PosedBody, body_of_poses};
 use crate::kinematics::retarget::JointCentreError;
 use crate::kinematics::scaling::{
     ProtocolTrials, ScalingError, ScalingProtocol, SizedModel, fit_size, scale_by_protocol,
 };
 use crate::model::Model;
-use crate::model::marker_set::{MarkerSet, RecognisedMarkers, RecognitionError};
+use crate::model::marker_set::{Landmark, MarkerSet, NamedMarker, RecognisedMarkers, RecognitionError};
 use crate::motion::{Laboratory, MarkerRecording, SegmentPoses};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
@@ -53,8 +54,8 @@ pub struct ModelProtocol {
 }
 
 impl<'a> BodySource<'a> {
-    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used,
-    /// otherwise those that are detected.
+    /// A recording in world axes: the ground axes of the model if a protocol says how its markers are used, otherwise
+    /// the detected axes.
     pub(super) fn turned(
         &self,
         recording: &LaboratoryRecording,
@@ -101,7 +102,7 @@ pub struct Subject {
     pub calibration: Option<CalibrationReport>,
     /// How a given model was scaled: factors of each body along its axes.
     pub scaled: Vec<(String, Vec3)>,
-    /// Root mean square distance of the markers of the standing trial from those of the scaled model [m].
+    /// Root mean square distance between the markers of the standing trial and of the scaled model [m].
     pub scaling_rms_m: Option<f64>,
     /// The recognised marker sets.
     pub sets: Vec<String>,
@@ -123,7 +124,7 @@ pub enum MarkerTrialError {
     /// The poses of the segments give no body.
     #[error(transparent)]
     Poses(#[from] JointCentreError),
-    /// The markers of several people.
+    /// The markers of several persons.
     #[error(
         "{recording} has the markers of {} people: {}; expected one person. hint: choose one of them by name",
         people.len(),
@@ -222,7 +223,7 @@ impl Subject {
         }
     }
 
-    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces that of the protocol.
+    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces the mass of the protocol.
     fn by_protocol(
         model: &Model,
         mass: Option<f64>,
@@ -268,11 +269,13 @@ impl Subject {
     ) -> Result<Subject, MarkerTrialError> {
         let (recording, trial) = standing.map_or((moving, Trial::Moving), |standing| (standing, Trial::Standing));
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
-        let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names)?,
-            None => MarkerSet::recognise(names)?,
+        let recognised = RecognisedMarkers::with(set, names)?;
+        let calibrated = match calibrate(recording, trial, &recognised, person, findings) {
+            Err(error @ CalibrationError::Markers { .. }) => {
+                by_place((recording, trial), &recognised, person, findings).ok_or(error)?
+            }
+            other => other?,
         };
-        let calibrated = calibrate(recording, trial, &recognised, person, findings)?;
         let human = calibrated.human;
         Ok(Subject {
             person: Person::of_human(&human),
@@ -284,6 +287,31 @@ impl Subject {
             model: human.model,
         })
     }
+}
+
+/// The body of a recording whose names do not suffice, with markers that sit where a joint needs one; `None` if there
+/// are none.
+fn by_place(
+    (recording, trial): (&MarkerRecording, Trial),
+    recognised: &RecognisedMarkers,
+    person: &calibration::PersonMeasurements,
+    findings: &mut Findings,
+) -> Option<Calibrated> {
+    let placed = markers_at_joints(recording, recognised);
+    let shown = |marker: &NamedMarker| {
+        let side = marker.definition.side.map_or(String::new(), |side| format!(" {side}"));
+        format!("`{}` as {}{side}", marker.name, marker.definition.landmark.map_or("technical", Landmark::word))
+    };
+    let message = format!(
+        "the known names do not suffice for a body; by their places on it {} markers were taken too: {}",
+        placed.len(),
+        placed.iter().map(shown).collect::<Vec<_>>().join(", ")
+    );
+    let markers = recognised.markers.iter().cloned().chain(placed).collect();
+    let completed = RecognisedMarkers { markers, ..recognised.clone() };
+    let calibrated = calibrate(recording, trial, &completed, person, findings).ok()?;
+    findings.report(Code::MarkersByPlace, message);
+    Some(calibrated)
 }
 
 fn scaling_message(sized: &SizedModel) -> String {

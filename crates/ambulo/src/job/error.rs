@@ -69,6 +69,8 @@ pub enum Field {
     ForceDelay,
     /// The method of the marker fit.
     Fit,
+    /// The regression of the hip centres.
+    Hip,
     /// The residual reduction.
     ResidualReduction,
 }
@@ -103,6 +105,7 @@ impl Field {
             Field::Gap => "longest gap",
             Field::ForceDelay => "force delay",
             Field::Fit => "marker fit",
+            Field::Hip => "regression of the hip centres",
             Field::ResidualReduction => "residual reduction",
         }
     }

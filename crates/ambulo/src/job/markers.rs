@@ -65,7 +65,11 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
         return Err(JobError::new(&[Field::Height], what));
     }
-    let of_the_built_in_body = [(Field::Markers, job.markers.is_some()), (Field::Segments, job.has_other_segments())];
+    let of_the_built_in_body = [
+        (Field::Markers, job.markers.is_some()),
+        (Field::Segments, job.has_other_segments()),
+        (Field::Hip, job.has_other_hip()),
+    ];
     match of_the_built_in_body.into_iter().find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(

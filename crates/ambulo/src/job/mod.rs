@@ -5,11 +5,11 @@
 //!    |
 //!   read    the caller reads the files; kinds of recording are recognised, contradictions are rejected
 //!    v
-//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
+//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files read
 //! ```
 //!
-//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of
-//! a visit have.
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] chooses the body and the mass for the
+//! trials of a visit have.
 //!
 //! The joint moments of a recording in a laboratory:
 //!
@@ -68,6 +68,7 @@ pub use values::{
 
 use crate::analysis::Subject;
 use crate::findings::Findings;
+use crate::kinematics::calibration::HipRegression;
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
@@ -169,7 +170,7 @@ pub struct ForceFiles {
     pub left: Option<FootColumns>,
 }
 
-/// What is read or computed once for several jobs of a person. Clones share it.
+/// Data that are read or computed once for several jobs of a person. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Shared {
     standing_trials: StandingTrials,
@@ -268,6 +269,11 @@ impl Job {
     /// The recording, for messages.
     fn shown(&self) -> String {
         self.recording().display().to_string()
+    }
+
+    /// Whether a regression of the hip centres of the built-in body was chosen.
+    fn has_other_hip(&self) -> bool {
+        self.settings.hip != HipRegression::default()
     }
 
     /// Whether segment masses of the built-in body were chosen.

@@ -114,6 +114,7 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
         (Field::Markers, job.markers.is_some()),
         (Field::MarkerSet, job.marker_set.is_some()),
         (Field::Plates, !job.plates.is_empty()),
+        (Field::Hip, job.has_other_hip()),
         (Field::Segments, job.model_file().is_some() && job.has_other_segments()),
     ];
     let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };

@@ -9,7 +9,7 @@ use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};
 use std::path::Path;
 
-/// What the file should be.
+/// Description of the expected file.
 const NAME: &str = "a subject of AddBiomechanics (.b3d)";
 /// Bytes that show what another file is.
 const CONTENT_BYTES: usize = 4096;
@@ -93,6 +93,7 @@ fn check(job: &Job) -> Result<(), JobError> {
         (Field::Markers, job.markers.is_some()),
         (Field::Segments, job.has_other_segments()),
         (Field::Fit, job.settings.fit.is_some()),
+        (Field::Hip, job.has_other_hip()),
     ];
     if let Some((field, _)) = never.into_iter().find(|(_, given)| *given) {
         let what = format!("the {} has no effect for a .b3d, which has its own ground forces", field.name());

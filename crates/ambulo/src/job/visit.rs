@@ -1,6 +1,6 @@
 //! The trials of a visit, computed with one body.
 //!
-//! 1. Every trial is computed with a body of its own.
+//! 1. Every trial is computed with its own body.
 //! 2. Where the bodies are the same, because a model or a standing trial with a known mass gives them, this is all.
 //! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this
 //!    mass, from the standing trial or, without one, from the trial whose markers lie nearest to their body; the other
@@ -9,7 +9,7 @@
 use super::Job;
 use super::trials::PlannedTrial;
 use crate::analysis::Subject;
-use crate::model::Model;
+use crate::model::Marker;
 use crate::numerics::median;
 use crate::study::{GroundSettings, Outcome, QualityState, Tracking};
 use std::path::Path;
@@ -19,9 +19,9 @@ use std::path::Path;
 pub struct VisitRun {
     /// Number of the trial.
     pub trial: usize,
-    /// The mass of the body [kg]; `None` takes that of the job.
+    /// The mass of the body [kg]; `None` takes the mass of the job.
     pub mass_kg: Option<f64>,
-    /// The body; `None` takes that of the job.
+    /// The body; `None` takes the body of the job.
     pub body: Option<Subject>,
 }
 
@@ -74,17 +74,22 @@ pub fn compute<R: AsRef<Outcome>>(
 
 /// Whether all trials that were computed have the same body, with the same markers on it.
 fn has_one_body<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> bool {
-    let mut bodies = runs.iter().flatten().map(|run| &run.as_ref().body);
-    let Some(first) = bodies.next().map(every_number) else { return true };
-    bodies.all(|body| every_number(body) == first)
+    let mut outcomes = runs.iter().flatten().map(AsRef::as_ref);
+    let Some(first) = outcomes.next().map(every_number) else { return true };
+    outcomes.all(|outcome| every_number(outcome) == first)
 }
 
-/// All numbers and names of a body.
-fn every_number(body: &Model) -> String {
-    format!("{body:?}")
+/// All numbers and names of a body, without the markers that a trial adds to the calibration.
+fn every_number(outcome: &Outcome) -> String {
+    let calibrated = subject(outcome).and_then(|subject| subject.calibration.as_ref());
+    let is_shared =
+        |marker: &&Marker| calibrated.is_none_or(|report| report.markers.iter().any(|own| own.name == marker.name));
+    let markers = outcome.body.markers().iter().filter(is_shared).cloned().collect();
+    format!("{:?}", outcome.body.with_markers(markers))
 }
 
-/// The trial that gives the body: of those whose data are not bad the one whose markers lie nearest to their body.
+/// The trial that gives the body: among trials whose data are not bad, the one with the smallest distance between
+/// markers and body.
 fn first_of<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
     let rank = |k: &usize| {
         let outcome = runs[*k].as_ref().ok()?.as_ref();
@@ -116,9 +121,9 @@ fn again_with_one_body<R: AsRef<Outcome>>(
         runs[order.trial] = found;
     }
     runs[first] = own;
-    let of_first = runs[first].as_ref().ok().map(|run| every_number(&run.as_ref().body));
+    let of_first = runs[first].as_ref().ok().map(|run| every_number(run.as_ref()));
     let refused = runs.into_iter().map(|run| match run {
-        Ok(run) if Some(every_number(&run.as_ref().body)) != of_first => Err(format!(
+        Ok(run) if Some(every_number(run.as_ref())) != of_first => Err(format!(
             "its body is another one than that of {}: a session has one body. hint: state the same model for all \
              trials, or leave this one out (`exclude` in trials.toml)",
             trials[first].name

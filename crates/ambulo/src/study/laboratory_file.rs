@@ -214,7 +214,7 @@ impl LaboratoryFile {
 /// repeated.
 ///
 /// # Errors
-/// Those of `read`.
+/// Errors of `read`.
 pub fn standing_trial<T, E>(findings: &mut Findings, read: impl FnOnce(&mut Findings) -> Result<T, E>) -> Result<T, E> {
     let mut own = Findings::default();
     let file = read(&mut own);

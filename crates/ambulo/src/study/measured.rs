@@ -21,9 +21,11 @@ use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::footfalls::{Footfalls, footfalls};
 use crate::ground::phases::contacts_from_force;
 use crate::ground::predict::{Prediction, total_wrench};
-use crate::ground::stances::{LoadedTime, MeasuredMotion, Missing, Stance, StanceSource, VerticalForces, completed};
+use crate::ground::stances::{
+    LoadedTime, MeasuredMotion, Missing, Stance, StanceSource, VerticalForces, completed, measured_share,
+};
 use crate::kinematics::Trajectory;
-use crate::model::{BySide, Model};
+use crate::model::{BySide, Model, Side};
 use crate::motion::{Motion, interpolate};
 
 /// The stances of a measured motion, and forces for those that were not measured.
@@ -127,11 +129,12 @@ fn report(stances: &[Stance], findings: &mut Findings) {
         let found: Vec<&Stance> = stances.iter().filter(|stance| stance.source == source).collect();
         let first = *found.first()?;
         Some(format!(
-            "the load of the {} foot from {:.3} to {:.3} s{} was not measured",
+            "the load of the {} foot from {:.3} to {:.3} s{} was not measured{}",
             first.side,
             first.start_s,
             first.end_s,
-            and_more_times(found.len())
+            and_more_times(found.len()),
+            legs_without_measured_stance(stances)
         ))
     };
     if let Some(what) = of(StanceSource::Predicted) {
@@ -147,6 +150,13 @@ fn report(stances: &[Stance], findings: &mut Findings) {
         );
         findings.report(Code::StancesUnknown, message);
     }
+}
+
+/// Which leg has no measured stance at all, to be added to a sentence.
+fn legs_without_measured_stance(stances: &[Stance]) -> String {
+    let without =
+        Side::BOTH.into_iter().filter(|side| measured_share(stances, *side).is_some_and(|share| share <= 0.0));
+    without.map(|side| format!(", nor that of any other stance of the {side} leg")).collect()
 }
 
 impl StanceLoads {

@@ -1,5 +1,5 @@
-//! The calibration of a person: what force plates show about the prediction in some trials, for the other trials of the
-//! person.
+//! The calibration of a person: errors of the prediction against force plates in some trials, for the other trials of
+//! the person.
 
 use super::outcome::{Outcome, PredictedGround};
 use super::quality::QualityState;
@@ -20,7 +20,7 @@ pub enum CalibrationError {
         "the trial has no force plates; expected the forces that plates measured, to compare the prediction with them"
     )]
     NoPlates {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
     },
     /// No foot on a separate plate.
@@ -28,7 +28,7 @@ pub enum CalibrationError {
         "no foot was wholly on a separate plate from strike to off; expected at least one such stance in each trial"
     )]
     NoStance {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
     },
     /// Running, squatting or another activity.
@@ -36,7 +36,7 @@ pub enum CalibrationError {
         "the person does not walk in this trial ({found}); expected walking, because other activities have other errors"
     )]
     NotWalking {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
         /// Recognised activity.
         found: &'static str,
@@ -44,7 +44,7 @@ pub enum CalibrationError {
     /// Data that do not fit together.
     #[error("the quality of the trial is bad ({reason}); expected a trial whose markers, force plates and mass agree")]
     BadTrial {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
         /// The first reason of its quality.
         reason: String,
@@ -62,7 +62,7 @@ pub enum CalibrationError {
     OtherPerson {
         /// The trial that differs from the first one.
         trial: usize,
-        /// How it differs.
+        /// How the persons differ.
         error: OtherPerson,
     },
 }

@@ -1,4 +1,4 @@
-//! The clock of a recording before anything is computed from it: the time between its samples, held samples, and the
+//! Checks of the clock of a recording before any computation: the time between its samples, held samples, and the
 //! delay of the forces that the caller states.
 //! Pinned by: tests/study_timing.rs
 
@@ -78,7 +78,7 @@ impl MarkerSource {
 }
 
 impl MeasuredForces {
-    /// Forces on bodies without a delay; those of plates and tables lose it where they are read.
+    /// Forces on bodies without a delay; from plates and tables the delay is removed where they are read.
     pub(super) fn without_delay(mut self, delay_s: f64) -> MeasuredForces {
         if let MeasuredForces::OnBodies(forces) = &mut self
             && delay_s.abs() > 0.0

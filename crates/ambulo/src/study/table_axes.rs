@@ -46,7 +46,7 @@ pub(super) fn in_world(
 
 /// The vertical of a table whose y is not up.
 struct Vertical {
-    /// Of the table's axes.
+    /// Upward direction in the table's axes.
     up: Vec3,
     /// The axis of the load, with its sign.
     axis: usize,

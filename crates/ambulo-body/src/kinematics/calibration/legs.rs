@@ -23,6 +23,9 @@ const BENT: f64 = 0.35;
 /// Varus is measured where the knee is flexed less than this [rad]: at larger angles an error of the axis appears as
 /// varus.
 const NEARLY_STRAIGHT: f64 = 0.5;
+/// A wand further than 60 degrees from straight outwards is none, but a marker in front or behind with the same name:
+/// wands are placed within 15 to 20 degrees of the plane of the joint.
+const WAND_COSINE: f64 = 0.5;
 /// Smallest number of frames in which a leg is visible.
 const LEAST_FRAMES: usize = 3;
 
@@ -65,7 +68,19 @@ enum Method {
     Wand(Landmark, Landmark, f64),
     /// Half the width [m] inside the lateral marker, in the plane of a given axis.
     Plane(Landmark, f64),
+    /// Of an ankle without a marker: where it is on a usual foot between heel and this front landmark, in the plane of
+    /// heel, front and knee.
+    OfFoot(Landmark),
 }
+
+/// Front landmarks of a foot that place its ankle, the best first.
+const FRONTS: [Landmark; 5] = [
+    Landmark::SecondToe,
+    Landmark::FirstMetatarsal,
+    Landmark::FifthMetatarsal,
+    Landmark::FifthBase,
+    Landmark::Navicular,
+];
 
 /// Landmarks of a joint of the leg.
 struct JointLandmarks {
@@ -103,8 +118,8 @@ pub(super) fn find(
         let breadths = breadths(trajectories, frames, pelvis, person, side);
         let finder = Finder { trajectories, frames, side };
         let (Some(knee), Some(ankle)) = (
-            finder.method(&KNEE, breadths[0], person.measurements.radius(), assumptions),
-            finder.method(&ANKLE, breadths[1], person.measurements.radius(), assumptions),
+            finder.method((&KNEE, pelvis), breadths[0], person.measurements.radius(), assumptions),
+            finder.method((&ANKLE, pelvis), breadths[1], person.measurements.radius(), assumptions),
         ) else {
             assumptions.push(format!(
                 "the {side} leg has no markers at knee and ankle; its lengths are from the segment table"
@@ -116,8 +131,10 @@ pub(super) fn find(
     if legs.values().all(Option::is_none) {
         return Err(CalibrationError::Markers {
             part: "legs".to_owned(),
-            needed: "on one side at least lateral_epicondyle or knee_centre, and lateral_malleolus or ankle_centre,"
-                .to_owned(),
+            needed:
+                "on one side at least lateral_epicondyle or knee_centre, and lateral_malleolus, ankle_centre or heel \
+                     with a marker of the forefoot,"
+                    .to_owned(),
             found: trajectories.words(),
         });
     }
@@ -138,7 +155,8 @@ fn breadths(
     [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
 }
 
-/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it.
+/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it, the thigh alone
+/// half of this.
 fn rough_stature(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
@@ -148,8 +166,9 @@ fn rough_stature(
     const LEG_SHARE: f64 = 0.49;
     let length = |measured: usize, frame: usize| {
         let knee = trajectories.of(Landmark::LateralEpicondyle, side, frame)?;
-        let ankle = trajectories.of(Landmark::LateralMalleolus, side, frame)?;
-        Some(((pelvis.hip(measured, side)? - knee).norm() + (knee - ankle).norm()) / LEG_SHARE)
+        let thigh = (pelvis.hip(measured, side)? - knee).norm();
+        let shank = trajectories.of(Landmark::LateralMalleolus, side, frame).map(|ankle| (knee - ankle).norm());
+        Some((thigh + shank.unwrap_or(thigh)) / LEG_SHARE)
     };
     median(frames.iter().enumerate().filter_map(|(measured, &frame)| length(measured, frame)))
 }
@@ -165,7 +184,7 @@ impl Finder<'_> {
     /// The best method that the visible markers allow; its assumptions are added to the list.
     fn method(
         &self,
-        joint: &JointLandmarks,
+        (joint, pelvis): (&JointLandmarks, &Pelvis),
         (breadth, is_measured): (f64, bool),
         radius: f64,
         assumptions: &mut Vec<String>,
@@ -176,10 +195,18 @@ impl Finder<'_> {
         if self.together(&[joint.lateral, joint.medial]) {
             return Some(Method::Middle(joint.lateral, joint.medial));
         }
-        if !self.together(&[joint.lateral]) {
-            return None;
-        }
         let (side, name) = (self.side, joint.name);
+        if !self.together(&[joint.lateral]) {
+            let front = FRONTS.into_iter().find(|front| self.together(&[Landmark::Heel, *front]))?;
+            if joint.name != ANKLE.name {
+                return None;
+            }
+            assumptions.push(format!(
+                "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of heel \
+                 and forefoot"
+            ));
+            return Some(Method::OfFoot(front));
+        }
         if !is_measured {
             assumptions.push(format!(
                 "the {side} {name} is assumed {:.0} mm wide, a share of stature: it has no medial marker and no \
@@ -188,7 +215,7 @@ impl Finder<'_> {
             ));
         }
         let half = 0.5 * breadth + radius;
-        if self.together(&[joint.lateral, joint.wand]) {
+        if self.together(&[joint.lateral, joint.wand]) && self.is_wand_outside(joint, pelvis) {
             return Some(Method::Wand(joint.lateral, joint.wand, half));
         }
         let plane = if joint.name == KNEE.name {
@@ -198,6 +225,20 @@ impl Finder<'_> {
         };
         assumptions.push(format!("the {side} {name} axis is assumed {plane}: there is no medial marker and no wand"));
         Some(Method::Plane(joint.lateral, half))
+    }
+
+    /// Whether a wand lies on the outer side of its segment, within [`WAND_COSINE`] of straight outwards.
+    fn is_wand_outside(&self, joint: &JointLandmarks, pelvis: &Pelvis) -> bool {
+        let out = if self.side == Side::Right { 1.0 } else { -1.0 };
+        let cosine = |(measured, &frame): (usize, &usize)| {
+            let at = |landmark: Landmark| self.trajectories.of(landmark, self.side, frame);
+            let upper = if joint.name == KNEE.name { pelvis.hip(measured, self.side) } else { at(KNEE.lateral) };
+            let lateral = at(joint.lateral)?;
+            let along = direction(upper? - lateral)?;
+            let outwards = perpendicular(pelvis.right(measured)? * out, along)?;
+            Some(perpendicular(at(joint.wand)? - lateral, along)?.dot(&outwards))
+        };
+        median(self.frames.iter().enumerate().filter_map(cosine)).is_none_or(|cosine| cosine > WAND_COSINE)
     }
 
     /// Whether landmarks are visible together in enough frames.
@@ -227,6 +268,7 @@ impl Finder<'_> {
                 let centre = chord(upper, lateral, lateral + given * out, half)?;
                 Some((centre, direction(lateral - centre)? * out))
             }
+            Method::OfFoot(front) => Some((ankle_of_foot([at(Landmark::Heel)?, at(front)?], front, upper)?, given)),
         }
     }
 
@@ -240,11 +282,23 @@ impl Finder<'_> {
         }
         let femur = Pose { rotation: from_y_z(hip - knee, axis)?, translation: hip };
         let tibia = Pose { rotation: from_y_z(knee - ankle, femur.rotation.column(2).into())?, translation: knee };
-        if matches!(methods[1], Method::Centre(_) | Method::Plane(..)) {
+        if matches!(methods[1], Method::Centre(_) | Method::Plane(..) | Method::OfFoot(_)) {
             ankle_axis = tibia.rotation.column(2).into();
         }
         Some(LegFrame { femur, tibia, ankle, ankle_axis })
     }
+}
+
+/// Centre of an ankle [m] from a heel and a front marker, which have the landmarks of a usual foot of their distance. The
+/// knee shows which side of the line between them is up, whatever the angle of the ankle.
+fn ankle_of_foot([heel, front]: [Vec3; 2], landmark: Landmark, knee: Vec3) -> Option<Vec3> {
+    let level = |place: Vec3| Vec3::new(place.x, place.y, 0.0);
+    let (rear, ahead) = (level(Landmark::Heel.place()), level(landmark.place()));
+    let size = (front - heel).norm() / (landmark.place() - Landmark::Heel.place()).norm();
+    let (along, of_table) = (direction(front - heel)?, direction(ahead - rear)?);
+    let up = perpendicular(knee - heel, along)?;
+    let up_of_table = Vec3::new(-of_table.y, of_table.x, 0.0);
+    Some(heel + (along * -rear.dot(&of_table) + up * -rear.dot(&up_of_table)) * size)
 }
 
 /// Centre of a hinge at half the width from a lateral marker: perpendicular to the line to the upper joint, in the

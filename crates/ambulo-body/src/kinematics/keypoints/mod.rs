@@ -65,10 +65,7 @@ impl Keypoints {
     /// recognised.
     pub fn recognised(recording: &MarkerRecording, set: Option<&MarkerSet>) -> Option<Keypoints> {
         let names = recording.markers.iter().map(|marker| marker.name.as_str());
-        let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names).ok()?,
-            None => MarkerSet::recognise(names).ok()?,
-        };
+        let recognised = RecognisedMarkers::with(set, names).ok()?;
         recognised.has_hips_only().then(|| Keypoints::of(recording, &recognised))
     }
 

@@ -16,7 +16,6 @@
 //! weight = 0.5
 //! ```
 
-use super::landmark::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use super::{Landmark, MarkerDefinition, MarkerSet, Segment};
 use crate::model::Side;
 use crate::spatial::Vec3;
@@ -81,7 +80,7 @@ impl Reading {
             return Err(table.missing("side", "the side of the limb, \"right\" or \"left\""));
         }
         let place = match (common.place, side) {
-            // An explicit position is used as written; that of a landmark is mirrored.
+            // An explicit position is used as written; the position of a landmark is mirrored.
             (Some(p), Some(Side::Left)) if table.get("place").is_none() => Some(Vec3::new(p.x, p.y, -p.z)),
             (place, _) => place,
         };
@@ -127,11 +126,7 @@ fn common(table: &Table<'_>) -> Result<MarkerDefinition, TomlError> {
         }
     };
     let own = table.get("place").map(|value| value.vector()).transpose()?;
-    let usual = match (landmark, segment) {
-        (Some(landmark), _) => landmark.weight(),
-        (None, Segment::Humerus | Segment::Forearm) => LOOSE_WEIGHT,
-        (None, _) => FOLLOWING_WEIGHT,
-    };
+    let usual = landmark.map_or_else(|| segment.technical_weight(), Landmark::weight);
     let weight = match table.get("weight") {
         Some(value) => {
             let weight = value.above_zero()?;

@@ -74,7 +74,7 @@ pub enum MarkerSetError {
 }
 
 /// The built-in sets: name and file.
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     ("plug-in-gait", include_str!("../../../data/markers/plug-in-gait.toml")),
     ("oxford-foot", include_str!("../../../data/markers/oxford-foot.toml")),
     ("gait2392", include_str!("../../../data/markers/gait2392.toml")),
@@ -85,6 +85,7 @@ const FILES: [(&str, &str); 11] = [
     ("cmu", include_str!("../../../data/markers/cmu.toml")),
     ("bts", include_str!("../../../data/markers/bts.toml")),
     ("human-body-model", include_str!("../../../data/markers/human-body-model.toml")),
+    ("bones", include_str!("../../../data/markers/bones.toml")),
     ("words", include_str!("../../../data/markers/words.toml")),
 ];
 

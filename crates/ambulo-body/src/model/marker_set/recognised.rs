@@ -12,6 +12,10 @@ const LEAST_GAIN: usize = 2;
 /// Smallest number of names that the first set must explain.
 const LEAST_COVER: usize = 4;
 
+/// The set of joint centres with the names of bones, which mean markers on the skin in other sets: it explains a whole
+/// recording or nothing.
+const BONES: &str = "bones";
+
 /// A recognised marker of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedMarker {
@@ -69,61 +73,64 @@ impl MarkerSet {
     /// # Errors
     /// Names that no set explains.
     pub fn recognise<'n>(names: impl IntoIterator<Item = &'n str>) -> Result<RecognisedMarkers, RecognitionError> {
-        let names: Vec<&str> = names.into_iter().collect();
-        RecognisedMarkers::indexed(MarkerSet::built_in()?, &BUILT_IN_INDICES, &names)
+        RecognisedMarkers::with(None, names)
     }
 }
 
 impl RecognisedMarkers {
-    /// Recognises markers with some of these sets: first the one that explains most names, then any that explain
-    /// at least two of the others. Names that are written as in a set go before names that only mean the same
-    /// (`NameIndex`).
+    /// Recognises markers with a set of the laboratory's own, if there is one, and the names that it does not have with
+    /// the built-in sets: first the one that explains most names, then any that explain at least two of the others. Names
+    /// that are written as in a set go before names that only mean the same (`NameIndex`). A landmark that several markers
+    /// show belongs to the marker of the laboratory's set, otherwise to the first.
     ///
     /// # Errors
     /// Names that no set explains.
-    pub fn among<'n>(
-        sets: &[MarkerSet],
+    pub fn with<'n>(
+        own: Option<&MarkerSet>,
         names: impl IntoIterator<Item = &'n str>,
     ) -> Result<RecognisedMarkers, RecognitionError> {
         let names: Vec<&str> = names.into_iter().collect();
-        let indices: Vec<NameIndex<'_>> = sets.iter().map(NameIndex::new).collect();
-        RecognisedMarkers::indexed(sets, &indices, &names)
-    }
-
-    /// As [`RecognisedMarkers::among`], with the index of each set.
-    fn indexed(
-        sets: &[MarkerSet],
-        indices: &[NameIndex<'_>],
-        names: &[&str],
-    ) -> Result<RecognisedMarkers, RecognitionError> {
-        let plain = RecordedName::all(names);
-        let mut search = Search { sets, indices, names: &plain, found: vec![None; names.len()], used: vec![] };
-        // Where twice as many names mean the same as are written the same, the laboratory writes them in its own way.
-        let most = |reading| (0..sets.len()).map(|set| search.gain(set, reading)).max().unwrap_or(0);
-        if most(NameReading::Meant) < 2 * most(NameReading::Written) {
-            search.rounds(NameReading::Written);
+        let plain = RecordedName::all(&names);
+        let index = own.map(NameIndex::new);
+        let sets: Vec<&MarkerSet> = own.into_iter().chain(MarkerSet::built_in()?).collect();
+        let indices: Vec<&NameIndex<'_>> = index.iter().chain(BUILT_IN_INDICES.iter()).collect();
+        let found = vec![None; names.len()];
+        let mut search = Search { sets: &sets, indices: &indices, names: &plain, found, used: vec![] };
+        if own.is_some() {
+            [NameReading::Written, NameReading::Meant].into_iter().for_each(|reading| search.take(0, reading));
         }
-        search.rounds(NameReading::Meant);
+        search.all_rounds();
         if search.used.is_empty() {
-            return Err(search.nothing(names));
+            return Err(search.nothing(&names));
         }
         let Search { found, used, .. } = search;
-        let used: Vec<&MarkerSet> = used.into_iter().map(|set| &sets[set]).collect();
-        Ok(RecognisedMarkers::of(&used, names, &found))
+        let used: Vec<&MarkerSet> = used.into_iter().map(|set| sets[set]).collect();
+        Ok(RecognisedMarkers::of(&used, &names, &found, own))
     }
 
-    fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> RecognisedMarkers {
+    fn of(
+        used: &[&MarkerSet],
+        names: &[&str],
+        found: &[Option<&MarkerDefinition>],
+        own: Option<&MarkerSet>,
+    ) -> RecognisedMarkers {
+        let is_own =
+            |found: &MarkerDefinition| own.is_some_and(|own| own.markers.iter().any(|of| std::ptr::eq(of, found)));
+        let key = |found: &MarkerDefinition| Some((found.landmark?, found.side));
+        let taken: BTreeSet<(Landmark, Option<Side>)> =
+            found.iter().flatten().copied().filter(|found| is_own(found)).filter_map(key).collect();
         let mut markers: Vec<NamedMarker> = Vec::new();
         let mut unknown = Vec::new();
         let mut places: BTreeSet<(Landmark, Option<Side>)> = BTreeSet::new();
         for (name, definition) in names.iter().zip(found) {
-            let Some(definition) = definition else {
+            let Some(found) = *definition else {
                 unknown.push((*name).to_owned());
                 continue;
             };
-            let mut definition = (*definition).clone();
+            let mut definition = found.clone();
             // A landmark has one marker; a second one only shows the motion of the segment.
-            if definition.landmark.is_some_and(|l| !places.insert((l, definition.side))) {
+            let is_second = |place| !is_own(found) && taken.contains(&place) || !places.insert(place);
+            if key(found).is_some_and(is_second) {
                 definition.landmark = None;
             }
             markers.push(NamedMarker { name: (*name).to_owned(), definition });
@@ -164,8 +171,8 @@ impl RecognisedMarkers {
 
 /// A search for the sets that explain some names.
 struct Search<'a> {
-    sets: &'a [MarkerSet],
-    indices: &'a [NameIndex<'a>],
+    sets: &'a [&'a MarkerSet],
+    indices: &'a [&'a NameIndex<'a>],
     names: &'a [RecordedName],
     found: Vec<Option<&'a MarkerDefinition>>,
     /// Numbers of the sets that were used.
@@ -173,22 +180,42 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Adds sets by names as they are written, then by what they mean.
+    fn all_rounds(&mut self) {
+        // Where twice as many names mean the same as are written the same, the laboratory writes them in its own way.
+        let most = |reading| (0..self.sets.len()).map(|set| self.gain(set, reading)).max().unwrap_or(0);
+        if most(NameReading::Meant) < 2 * most(NameReading::Written) {
+            self.rounds(NameReading::Written);
+        }
+        self.rounds(NameReading::Meant);
+    }
+
     /// Adds the sets that explain most of the names that are left.
     fn rounds(&mut self, reading: NameReading) {
         loop {
-            let gains: Vec<usize> = (0..self.sets.len()).map(|set| self.gain(set, reading)).collect();
+            let is_apart = |set: usize| self.used.iter().any(|used| *used != set) && self.sets[set].name == BONES;
+            let gain = |set: usize| if is_apart(set) { 0 } else { self.gain(set, reading) };
+            let gains: Vec<usize> = (0..self.sets.len()).map(gain).collect();
             // The first of several sets that explain the same number.
             let Some(best) = (0..gains.len()).rev().max_by_key(|set| gains[*set]) else { return };
             let least = if self.used.is_empty() { LEAST_COVER } else { LEAST_GAIN };
             // A set that is already used explains further names without doubt.
             let known = self.used.iter().copied().find(|set| gains[*set] > 0);
             let Some(set) = known.or(Some(best).filter(|best| gains[*best] >= least)) else { return };
-            for (slot, name) in self.found.iter_mut().zip(self.names).filter(|(slot, _)| slot.is_none()) {
-                *slot = self.indices[set].find(name, reading);
-            }
-            if !self.used.contains(&set) {
-                self.used.push(set);
-            }
+            self.take(set, reading);
+        }
+    }
+
+    /// Gives the names that are left the meaning that a set has for them.
+    fn take(&mut self, set: usize, reading: NameReading) {
+        if self.gain(set, reading) == 0 {
+            return;
+        }
+        for (slot, name) in self.found.iter_mut().zip(self.names).filter(|(slot, _)| slot.is_none()) {
+            *slot = self.indices[set].find(name, reading);
+        }
+        if !self.used.contains(&set) {
+            self.used.push(set);
         }
     }
 

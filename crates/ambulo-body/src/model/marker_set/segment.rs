@@ -1,5 +1,6 @@
 //! Segments of the full body that markers are fixed to.
 
+use super::landmark::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use crate::model::anthropometry::Dimensions;
 use crate::model::{BodyId, Model, Side};
 
@@ -49,8 +50,21 @@ impl Segment {
         !matches!(self, Segment::Pelvis | Segment::Torso)
     }
 
+    /// Every segment with its side.
+    pub(crate) fn all() -> impl Iterator<Item = (Segment, Option<Side>)> {
+        Segment::WORDS.into_iter().flat_map(|(_, segment)| match segment.is_paired() {
+            true => Side::BOTH.map(|side| (segment, Some(side))).to_vec(),
+            false => vec![(segment, None)],
+        })
+    }
+
+    /// Weight in a fit of a marker that only shows the motion of the segment.
+    pub(crate) fn technical_weight(self) -> f64 {
+        if matches!(self, Segment::Humerus | Segment::Forearm) { LOOSE_WEIGHT } else { FOLLOWING_WEIGHT }
+    }
+
     /// The body of the segment in the model of the full body, by the name that [`crate::model::full_body`] gives it:
-    /// the anatomy of a model knows no arms. `side` is used for paired segments only.
+    /// the anatomy of a model has no arms. `side` is used for paired segments only.
     #[must_use]
     pub fn body(self, model: &Model, side: Option<Side>) -> Option<BodyId> {
         let stem = match self {

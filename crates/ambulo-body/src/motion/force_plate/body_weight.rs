@@ -10,7 +10,7 @@
 
 use crate::numerics::median;
 
-/// Weights of people, from a small child to the heaviest [N].
+/// Range of body weights, from a small child to the heaviest person [N].
 const PERSON_N: [f64; 2] = [50.0, 3000.0];
 /// Without a known mass, weights in this range are taken as newtons [N].
 const NEWTONS: [f64; 2] = [20.0, 12_000.0];
@@ -23,7 +23,7 @@ const SAME_UNIT: f64 = 1.05;
 const STEP_S: [f64; 2] = [0.12, 1.6];
 /// A step begins and ends at this share of the largest force.
 const LOADED: f64 = 0.1;
-/// In its middle it carries at least this share of its own largest force: the dip of a walk is 0.6 to 0.9.
+/// In the middle of a step the force is at least this share of its largest value: the dip of a walk is 0.6 to 0.9.
 const HELD: f64 = 0.3;
 /// Stance over the time between two steps in walking.
 const WALK_STANCE: f64 = 1.2;

@@ -35,7 +35,7 @@ pub(super) fn segment_of(label: &str) -> Option<PosedSegment> {
     name.without_side().find_map(of)
 }
 
-/// Rejects poses without those of the legs; `labels` are all that the file has.
+/// Rejects files without poses of the legs; `labels` are all labels of the file.
 pub(super) fn check_complete(
     segments: &[(PosedSegment, Vec<Option<Pose>>)],
     labels: &[&str],

@@ -43,7 +43,7 @@ pub(super) struct Work {
     pub(super) hashes: Mutex<BTreeMap<PathBuf, String>>,
 }
 
-/// The identity of a trial: what it is made of, wherever the files lie.
+/// The identity of a trial: the content of its files and its settings, independent of the folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Key {
     /// SHA-256 of version, options and the content of all files.

@@ -152,7 +152,7 @@ fn heading(forward: Vec3, up: Vec3) -> f64 {
 }
 
 /// Median distance between the places of a foot in the middle of a stance and of its next one [m], or twice the
-/// distance forward between those of both feet.
+/// distance forward between the places of both feet.
 fn stride(instants: &[Instant], footfalls: &Footfalls, grid: TimeGrid) -> Option<f64> {
     let middle = |fall: &Footfall| {
         let (from, to) = (fall.strike_s.unwrap_or(grid.start_s), fall.off_s.unwrap_or(grid.end_s()));
@@ -195,7 +195,7 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
     range(&means)
 }
 
-/// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward
+/// First and last instant of the longest time in which no foot is on the ground and the motion needs almost no upward
 /// force [s].
 fn longest_flight(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls, edge: usize) -> Option<[f64; 2]> {
     let (grid, up) = (trajectory.grid(), model.up());

@@ -51,7 +51,7 @@ const LEAST_STRIDE: f64 = 0.3;
 /// Slower than this share of √(g L), 0.9 m/s for an adult, nobody runs: people jog from 1.5 m/s on. Leaps and landings
 /// are slower.
 const SLOWEST_RUN: f64 = 0.3;
-/// Above this share of √(g L) people run: Froude number one half (Alexander 1989).
+/// Transition from walking to running, as a share of √(g L): Froude number one half (Alexander 1989).
 const RUNNING_SPEED: f64 = 0.7;
 /// The pelvis of a person who stands stays within this share of the leg length.
 const STANDING: f64 = 0.1;
@@ -206,7 +206,7 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
     let lowers = found.pelvis_range_m > STANDING * leg_m;
     let travels = found.speed_m_s > LEAST_SPEED * (leg_m * gravity).sqrt();
     let part_of_a_stride = found.steps < 2 && travels && !lowers && !flies;
-    // Feet that stay where they are carry nobody away, however the pelvis sways.
+    // The person does not advance while both feet stay in place, however the pelvis sways.
     let advances = found.stride_m.is_none_or(|stride_m| stride_m > LEAST_STRIDE * leg_m);
     let steps = found.steps >= 2 && advances && found.path_m > LEAST_PATH * leg_m || part_of_a_stride;
     if steps {

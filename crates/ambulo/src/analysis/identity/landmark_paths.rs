@@ -31,10 +31,7 @@ impl<'a> LandmarkPaths<'a> {
     /// `None` if the names belong to no marker set.
     pub(super) fn of(recording: &'a MarkerRecording, set: Option<&MarkerSet>) -> Option<LandmarkPaths<'a>> {
         let names = || recording.markers.iter().map(|marker| marker.name.as_str());
-        let recognised = match set {
-            Some(set) => RecognisedMarkers::among(std::slice::from_ref(set), names()).ok()?,
-            None => MarkerSet::recognise(names()).ok()?,
-        };
+        let recognised = RecognisedMarkers::with(set, names()).ok()?;
         let number = |name: &str| names().position(|known| known == name);
         let numbers = recognised
             .markers

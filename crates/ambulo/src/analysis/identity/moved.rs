@@ -42,7 +42,7 @@ pub(super) const ANOTHER_PERSON: usize = 3;
 
 /// The markers of legs and pelvis that moved, each with distance and direction; no more than show another person.
 pub(in crate::analysis) fn moved(subject: &Subject, moving: &MarkerRecording, settings: &FitSettings) -> Vec<String> {
-    let sample = sample(moving);
+    let sample = moving.sample(FRAMES);
     let mut fitter = Fitter { subject, sample: &sample, settings, left_out: Vec::new() };
     let mut moved = Vec::new();
     while moved.len() < ANOTHER_PERSON {
@@ -81,21 +81,6 @@ fn way(away: Vec3) -> &'static str {
         [["further forward", "further backward"], ["higher", "lower"], ["to the right", "to the left"]];
     let axis = away.iamax();
     WAYS[axis][usize::from(away[axis] < 0.0)]
-}
-
-/// Frames spread over a recording.
-fn sample(recording: &MarkerRecording) -> MarkerRecording {
-    let step = recording.frames().div_ceil(FRAMES).max(1);
-    let path = |path: &MarkerPath| MarkerPath {
-        name: path.name.clone(),
-        positions: path.positions.iter().copied().step_by(step).collect(),
-    };
-    MarkerRecording {
-        name: recording.name.clone(),
-        rate_hz: recording.rate_hz / step as f64,
-        times: recording.times.iter().copied().step_by(step).collect(),
-        markers: recording.markers.iter().map(path).collect(),
-    }
 }
 
 struct Fitter<'a> {

@@ -33,8 +33,8 @@ pub struct TrialFiles {
 }
 
 impl TrialFiles {
-    /// The job of the trial: that of all trials, with the files of this one where that names none. The size of the
-    /// trial counts before that of all trials.
+    /// The job of the trial: the job of all trials, with the files of this one where the job names none. The size of
+    /// the trial counts before the size of all trials.
     #[must_use]
     pub fn job(&self, of_all: &Job) -> Job {
         let TrialFiles { recording, trial, standing, model, grf, loads, size } = self.clone();

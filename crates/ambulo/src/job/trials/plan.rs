@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 pub const LIST: &str = "trials.toml";
 /// Words in the names of tables of ground forces.
 const FORCES: [&str; 4] = ["grf", "force", "forces", "plates"];
-/// Words in the names of recordings that say only what kind of recording it is.
+/// Words in names of recordings that state only the kind of recording.
 const RECORDINGS: [&str; 10] =
     ["ground", "reaction", "marker", "markers", "motion", "capture", "mocap", "ik", "kinematics", "coordinates"];
 /// Words in the names of standing trials, of which the first one with such a name is preferred.
@@ -43,7 +43,7 @@ const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
 pub struct PlannedTrial {
     /// Path of the recording from the folder of all trials.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The kind that the laboratory states.
     pub kind: Option<String>,
@@ -68,7 +68,7 @@ pub struct Plan {
     pub standing: Vec<String>,
 }
 
-/// What a recording is, and whose.
+/// Kind and person of a recording.
 #[derive(Debug, Clone)]
 pub struct Content {
     kind: Kind,
@@ -84,7 +84,7 @@ enum Kind {
     Still,
     /// Without forces.
     Motion,
-    /// It cannot be read, for this reason.
+    /// The recording cannot be read, for this reason.
     Broken(String),
 }
 
@@ -122,7 +122,7 @@ pub struct Listing<'a> {
 pub struct TrialFolder<'a> {
     /// Its path.
     pub path: &'a Path,
-    /// Its name, which is that of a person whose recordings lie in it.
+    /// Its name: the name of the person whose recordings lie in it.
     pub name: &'a str,
     /// Which recordings are trials.
     pub wanted: Wanted,
@@ -176,7 +176,7 @@ impl<'a> Listing<'a> {
         self.recordings.len()
     }
 
-    /// What a recording is, by its number.
+    /// The content of a recording, by its number.
     pub fn content(&self, number: usize, files: &mut dyn Files) -> Content {
         let (file, stated) = &self.recordings[number];
         if stated.excluded.is_some() || !is_of_markers(file) {
@@ -197,7 +197,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The trials. `contents` says what each recording is.
+    /// The trials. `contents` has the kind and the person of each recording.
     #[must_use]
     pub fn plan(self, contents: &[Content], files: &mut dyn Files) -> Plan {
         let mut plan = Plan { read: self.read.clone(), ..Plan::default() };
@@ -229,7 +229,7 @@ impl<'a> Listing<'a> {
 }
 
 impl Plan {
-    /// Takes a size that is stated for all trials, for those of which nothing else is stated; it is that of one person.
+    /// Uses a size stated for all trials in the trials that state none themselves; it is the size of one person.
     ///
     /// # Errors
     /// A size, and the trials of several persons.
@@ -372,7 +372,7 @@ fn words(file: &FoundFile) -> impl Iterator<Item = String> {
     words.into_iter()
 }
 
-/// The words that say which trial it is.
+/// The words that identify the trial.
 fn own_words(file: &FoundFile) -> BTreeSet<String> {
     words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
 }
@@ -416,7 +416,7 @@ impl<'a> Folders<'a> {
         folders
     }
 
-    /// The trial of a recording, or why it is none.
+    /// The trial of a recording, or the reason why it is no trial.
     fn trial(
         &self,
         file: &FoundFile,

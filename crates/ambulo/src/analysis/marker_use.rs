@@ -1,0 +1,132 @@
+//! Which markers of a motion the body follows: those that its calibration knows, and those that move with a segment.
+
+use super::marker_trial::MarkerTrial;
+use super::subject::Subject;
+use crate::findings::{Code, Findings};
+use crate::kinematics::marker_fit::MarkerFit;
+use crate::model::marker_set::{MarkerSet, NamedMarker, RecognisedMarkers};
+use crate::model::{BodyId, Marker, Side};
+use crate::motion::{MarkerPath, MarkerRecording};
+use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
+
+/// Of the markers of a motion, a body should follow at least this share [1].
+const LEAST_SHARE: f64 = 0.6;
+/// Markers that show the pose of a segment without markers of the joint at its end.
+const OF_A_POSE: usize = 3;
+/// Weight of markers that define a joint.
+const AT_JOINT: f64 = 1.0;
+/// Most names in a message.
+const MOST_NAMES: usize = 12;
+
+impl MarkerTrial<'_> {
+    /// The body with the markers of the motion that it does not have yet, on the segments with which they move. A given
+    /// model keeps its markers. Both recordings are in world axes.
+    pub(super) fn with_technical_markers(
+        &self,
+        subject: Subject,
+        moving: &MarkerRecording,
+        standing: Option<&MarkerRecording>,
+        findings: &mut Findings,
+    ) -> Subject {
+        if subject.calibration.is_none() {
+            return subject;
+        }
+        let Some(named) = named(moving, self.body.marker_set()) else { return subject };
+        let body = MarkedBody { model: &subject.model, weights: &subject.weights };
+        let found = technical_markers(body, moving, standing, &named);
+        if found.is_empty() {
+            return subject;
+        }
+        let markers = subject.model.markers().iter().chain(found.iter().map(|(marker, _)| marker)).cloned();
+        let Ok(model) = subject.model.with_markers(markers.collect()) else { return subject };
+        report_found(&subject, &found, findings);
+        let mut weights = subject.weights.clone();
+        weights.extend(found.iter().map(|(marker, weight)| (marker.name.clone(), *weight)));
+        Subject { model, weights, ..subject }
+    }
+}
+
+fn report_found(subject: &Subject, found: &[(Marker, f64)], findings: &mut Findings) {
+    let bodies = subject.model.bodies();
+    let shown = |(marker, _): &(Marker, f64)| {
+        let body = marker.body.map_or("ground", |body| &bodies[body.index()].name);
+        format!("`{}` on `{body}`", marker.name)
+    };
+    let markers = if found.len() == 1 { "1 marker was".to_owned() } else { format!("{} markers were", found.len()) };
+    let listed = listed(found.iter().map(shown));
+    let message = format!("{markers} given to the segments by how they move: {listed}");
+    findings.report(Code::MarkersByMotion, message);
+}
+
+/// The markers whose names are known; `None` for points of video, which are joint centres and have their segments.
+fn named(moving: &MarkerRecording, set: Option<&MarkerSet>) -> Option<Vec<NamedMarker>> {
+    let names = moving.markers.iter().map(|marker| marker.name.as_str());
+    match RecognisedMarkers::with(set, names) {
+        Ok(known) if known.has_hips_only() => None,
+        known => Some(known.map(|known| known.markers).unwrap_or_default()),
+    }
+}
+
+/// Reports a motion of which the body follows few markers, and thighs and shanks that few markers show. Returns the number
+/// of markers that are seen in any frame, without points that a program computed from others.
+pub(super) fn report_use(
+    subject: &Subject,
+    fit: &MarkerFit,
+    (moving, set): (&MarkerRecording, Option<&MarkerSet>),
+    findings: &mut Findings,
+) -> usize {
+    let Some(named) = named(moving, set) else { return moving.markers.len() };
+    let computed = computed_points(moving, &named);
+    let is_seen = |path: &&MarkerPath| (0..path.positions.len()).any(|frame| path.is_seen(frame));
+    let seen = moving.markers.iter().filter(is_seen).map(|marker| marker.name.as_str());
+    let recorded: Vec<&str> = seen.filter(|name| !computed.contains(name)).collect();
+    let followed: Vec<&str> =
+        fit.errors.iter().filter(|error| error.rms_m.is_finite()).map(|error| error.name.as_str()).collect();
+    if (followed.len() as f64) < LEAST_SHARE * recorded.len() as f64 {
+        let unused = recorded.iter().filter(|name| !followed.contains(name)).map(|name| format!("`{name}`"));
+        let message = format!(
+            "the body follows {} of the {} markers of `{}`; not used: {}",
+            followed.len(),
+            recorded.len(),
+            moving.name,
+            listed(unused)
+        );
+        findings.report(Code::MarkersUnused, message);
+    }
+    let shown: Vec<String> = hardly_shown(subject, &followed).collect();
+    if !shown.is_empty() {
+        let message = format!(
+            "the motion hardly shows {}; the pose of such a segment rests on its neighbours. Expected are a marker of \
+             the knee on a thigh and of the ankle on a shank, or three others that are in the standing trial too",
+            shown.join(", ")
+        );
+        findings.report(Code::MarkersSegmentHardlyShown, message);
+    }
+    recorded.len()
+}
+
+/// The thighs and shanks that the markers hardly show, with the number of their markers.
+fn hardly_shown(subject: &Subject, followed: &[&str]) -> impl Iterator<Item = String> {
+    let legs = subject.model.anatomy().legs();
+    let segments = Side::BOTH.into_iter().filter_map(|side| Some((side, legs[side].as_ref()?)));
+    let segments = segments.flat_map(|(side, leg)| [(side, "thigh", leg.thigh), (side, "shank", leg.shank)]);
+    segments.filter_map(|(side, name, body)| {
+        let own: Vec<&Marker> = markers_of(subject, body).filter(|m| followed.contains(&m.name.as_str())).collect();
+        let weight = |marker: &Marker| subject.weights.get(&marker.name).copied().unwrap_or(AT_JOINT);
+        let is_enough = own.len() >= OF_A_POSE || own.iter().any(|marker| weight(marker) >= AT_JOINT);
+        let count = if own.len() == 1 { "1 marker".to_owned() } else { format!("{} markers", own.len()) };
+        (!is_enough).then(|| format!("the {side} {name} ({count})"))
+    })
+}
+
+fn markers_of(subject: &Subject, body: BodyId) -> impl Iterator<Item = &Marker> {
+    subject.model.markers().iter().filter(move |marker| marker.body == Some(body))
+}
+
+fn listed(names: impl Iterator<Item = String>) -> String {
+    let mut names: Vec<String> = names.collect();
+    let more = names.len().saturating_sub(MOST_NAMES);
+    names.truncate(MOST_NAMES);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{}{more}", names.join(", "))
+}
