@@ -187,8 +187,7 @@ fn contradicted_rate(
     };
     let message = format!(
         "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every \
-         speed \
-         and force depends on it; correct the one that is wrong"
+         speed and force depends on it; correct the one that is wrong"
     );
     remarks.push(Remark::of_clock(message));
     used
