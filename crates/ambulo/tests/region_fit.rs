@@ -42,7 +42,7 @@ fn move_markers(recording: &mut MarkerRecording, names: &[&str], by: impl Fn(f64
 fn change_of_moments(clean: &Outcome, found: &Outcome) -> f64 {
     let column = |outcome: &Outcome, name: &str| -> Vec<f64> {
         let id = outcome.body.coordinate(name).unwrap();
-        outcome.analysis.forces.column(id).iter().map(|moment| moment / outcome.analysis.mass.kg).collect()
+        outcome.analysis.forces.generalized[id.index()].iter().map(|moment| moment / outcome.analysis.mass.kg).collect()
     };
     let mut largest = 0.0_f64;
     for name in LEGS.iter().flat_map(|stem| Side::BOTH.map(|side| format!("{stem}_{}", side.letter()))) {

@@ -190,28 +190,16 @@ struct Computed {
 impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
-        let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
-        let loads = self.loads.as_ref();
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
-        let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
-        let judged = Judged {
-            activity: activity.kind,
-            stances: &stances,
-            cutoff_hz: processing.smoother.cutoff_hz(),
-            model: &body,
-            person: &person,
-            analysis: &analysis,
-            device: self.device.as_deref(),
-            checks: prediction.as_ref().map(|found| &found.checks),
-        };
-        let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
-        let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
-        let verdict = self.directions.set_aside(verdict, &force_origin);
-        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
+        let Computed { body, person, analysis, prediction, mass, tracking, processing, .. } = &self;
+        let (loads, force_origin) = (self.loads.as_ref(), self.force_origin);
+        let stances = stances(body, person, analysis, prediction.as_ref(), loads, *processing);
+        let activity = recognised(body, person, analysis, &stances, &force_origin, findings);
+        let verdict = self.verdict(activity.kind, &stances, settings, findings);
+        let listed = loads.map_or_else(|| stances_of(analysis, prediction.as_ref()), |loads| loads.stances.clone());
         let unmeasured_leg = UnmeasuredLeg::of(&listed, &self.idle);
         unmeasured_leg.iter().for_each(|leg| leg.report(findings));
-        let strides = times_and_distances(&body, &person.soles, &analysis);
-        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
+        let strides = times_and_distances(body, &person.soles, analysis);
+        let by_gait = || tempo_of_gait(body, person, analysis, &stances, &strides, activity.kind, findings);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -220,38 +208,62 @@ impl Computed {
             is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,
-            mass: &mass,
+            mass,
             not_measured: &self.not_measured,
-            model: &body,
+            model: body,
             idle: &self.idle,
             unmeasured_leg: unmeasured_leg.as_ref(),
             directions: &self.directions,
-            heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
+            heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
             delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
             tempo: self.timing.tempo.or_else(by_gait),
         };
         Outcome {
             stances: listed,
-            completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
+            completed: loads.and_then(|loads| loads.complete(body, analysis)),
             force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),
-            mass: mass.after_reduction(body.mass()),
-            tracking,
+            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
+            processing: Processing::of(processing),
+            mass: self.mass.after_reduction(self.body.mass()),
+            tracking: self.tracking,
             activity,
             times_and_distances: strides,
-            body,
-            person,
-            analysis,
-            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
-            prediction,
+            body: self.body,
+            person: self.person,
+            analysis: self.analysis,
+            prediction: self.prediction,
             residual_reduction: self.reduction,
             device: self.device,
             not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
-            processing: Processing::of(&processing),
             subject: self.subject,
         }
+    }
+
+    /// The verdict, without the limits that faults of the data exceed.
+    fn verdict(
+        &self,
+        activity: ActivityKind,
+        stances: &Footfalls,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Verdict {
+        let judged = Judged {
+            activity,
+            stances,
+            cutoff_hz: self.processing.smoother.cutoff_hz(),
+            model: &self.body,
+            person: &self.person,
+            analysis: &self.analysis,
+            device: self.device.as_deref(),
+            checks: self.prediction.as_ref().map(|found| &found.checks),
+        };
+        let origin = &self.force_origin;
+        let verdict = judged.verdict(settings, origin, &self.partly_measured, findings);
+        let verdict = without_faults_of_data(verdict, self.tracking.as_ref(), &self.mass, &self.idle, origin);
+        self.directions.set_aside(verdict, origin)
     }
 }
 

@@ -10,7 +10,7 @@
 //! contains it. `--write` writes docs/measured/TWINS.md.
 
 mod changes;
-mod clean;
+pub(crate) mod clean;
 mod impossible;
 mod spoiled;
 mod taken;
