@@ -29,6 +29,26 @@ for (const name of ["demo", "recording", "no_ground", "one_leg", "no_cycles", "g
   });
 }
 
+test("curves on predicted forces are dotted, in the words of the legend", async () => {
+  await withPage("one_leg", async ({ page }) => {
+    await page.getByRole("button", { name: "Time" }).click();
+    assert.match((await page.locator(".legend").first().textContent()) ?? "", /predicted ground forces/);
+    assert.match(
+      (await page.locator(".answers").first().textContent()) ?? "",
+      /no stance of the left leg was measured/,
+    );
+    assert.match((await page.locator(".header").textContent()) ?? "", /measured, in part predicted/);
+    const roles = await page.evaluate(() =>
+      (window.ambulo.panels["knee_flexion_moment"]?.lines ?? []).map((line) => [line.role, line.side]),
+    );
+    assert.deepEqual(roles, [
+      ["main", "r"],
+      ["main", "l"],
+      ["predicted", "l"],
+    ]);
+  });
+});
+
 const MISSING: [string, RegExp][] = [
   ["no_ground", /without ground forces|no ground forces/i],
   ["one_leg", /left/i],

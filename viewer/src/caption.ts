@@ -60,9 +60,10 @@ export function captions(
 /** Legend entries: a line sample and a name per side and session. */
 function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly string[]): SVGElement[] {
   const thick = drawing.lines.filter((line) => line.role === "mean" || line.role === "main");
+  const predicted = drawing.lines.filter((line) => line.role === "predicted").slice(0, 1);
   const y = size.height - 9;
   let x: number = ROOM.left;
-  return thick.flatMap((line) => {
+  return [...thick, ...predicted].flatMap((line) => {
     const name = nameOf(line, sessions);
     const look = lineLook(line, scheme);
     const dash = look.dash.length > 0 ? { "stroke-dasharray": look.dash.join(" ") } : {};
@@ -80,6 +81,9 @@ function legend(drawing: Drawing, scheme: Scheme, size: Size, sessions: readonly
 }
 
 function nameOf(line: Line, sessions: readonly string[]): string {
+  if (line.role === "predicted") {
+    return "predicted";
+  }
   const side = line.side === null || line.variant > 0 ? line.name : sideName(line.side);
   return sessions.length > 1 ? `${sessions[line.session] ?? ""} ${side}` : side;
 }

@@ -117,7 +117,7 @@ value: string,
  */
 note: string | null, };
 
-export type PageSource = "measured" | "predicted" | "simulated" | "none";
+export type PageSource = "measured" | "mixed" | "predicted" | "simulated" | "none";
 
 export type PageVerdict = "feasible" | "infeasible" | "not_judged";
 
@@ -342,6 +342,10 @@ values: Series,
  * Its standard deviation.
  */
 sd: Series | null, 
+/**
+ * Times in which the ground force behind it was predicted or is unknown, while others were measured [s].
+ */
+predicted: Array<[number, number]>, 
 /**
  * Its column in the files.
  */

@@ -1,4 +1,4 @@
-import type { Origin, PageSide, Panel, RedSpan, Session, TimeAxis } from "./contract";
+import type { Origin, PageSide, Panel, RedSpan, Session, TimeAxis, Trace } from "./contract";
 import type { Numbers } from "./numbers";
 import { percentAt } from "./phase";
 
@@ -6,7 +6,7 @@ import { percentAt } from "./phase";
 export type Axis = "cycle" | "time";
 
 /** Role of a line; determines its style. */
-export type LineRole = "cycle" | "mean" | "main" | "measured" | "limit" | "infeasible";
+export type LineRole = "cycle" | "mean" | "main" | "predicted" | "measured" | "limit" | "infeasible";
 
 /** A curve in the panel's units. */
 export interface Line {
@@ -107,7 +107,7 @@ export function drawing(sources: readonly PanelSource[], numbers: Numbers, choic
 }
 
 /** Back to front. */
-const ORDER: readonly LineRole[] = ["limit", "cycle", "main", "mean", "measured", "infeasible"];
+const ORDER: readonly LineRole[] = ["limit", "cycle", "main", "predicted", "mean", "measured", "infeasible"];
 
 interface Part {
   readonly lines: Line[];
@@ -206,7 +206,7 @@ function timePart(source: PanelSource, numbers: Numbers, all: readonly PanelSour
     const main = panel.traces.filter((one) => one.role === "main" && one.side === trace.side);
     const variant = Math.max(main.indexOf(trace), 0);
     const common = { side: trace.side, session: index, cycle: null, variant, x };
-    lines.push({ name: trace.name, role: trace.role, y, origin: trace.origin, ...common });
+    lines.push(...sourced(trace, y, shift, common));
     if (trace.sd) {
       areas.push({ kind: "deviation", side: trace.side, session: index, x, ...around(y, numbers.read(trace.sd)) });
     }
@@ -223,6 +223,30 @@ function timePart(source: PanelSource, numbers: Numbers, all: readonly PanelSour
   }));
   const shades = panel.red.map((span) => ({ from: span.from_s + shift, to: span.to_s + shift }));
   return { lines, areas, marks: all.length === 1 ? marks : [], shades: index === 0 ? shades : [] };
+}
+
+/** A trace as one line, or as two: where the load behind it was measured, and where it was predicted. */
+function sourced(
+  trace: Trace,
+  y: Float64Array,
+  shift: number,
+  common: Omit<Line, "name" | "role" | "y" | "origin">,
+): Line[] {
+  const { name, role, origin, predicted } = trace;
+  const isPredicted = (i: number): boolean => {
+    const time = (common.x[i] ?? Number.NaN) - shift;
+    return predicted.some(([from, to]) => from - NOISE <= time && time <= to + NOISE);
+  };
+  // The predicted part reaches to its measured neighbours, so that the curve has no gaps.
+  const part = partOf(y, (i) => isPredicted(i - 1) || isPredicted(i) || isPredicted(i + 1));
+  if (part === null || role !== "main") {
+    return [{ name, role, y, origin, ...common }];
+  }
+  const rest = y.map((value, i) => (isPredicted(i) ? Number.NaN : value));
+  return [
+    { name, role, y: rest, origin, ...common },
+    { name: `${name}, predicted`, role: "predicted", y: part, origin, ...common },
+  ];
 }
 
 function isRed(spans: readonly RedSpan[], side: PageSide | null, time: number): boolean {

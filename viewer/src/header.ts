@@ -5,6 +5,7 @@ import { tableElement } from "./table";
 
 const SOURCES: Readonly<Record<PageSource, string>> = {
   measured: "Ground forces: measured",
+  mixed: "Ground forces: measured, in part predicted",
   predicted: "Ground forces: predicted",
   simulated: "Ground forces: simulated",
   none: "No ground forces",

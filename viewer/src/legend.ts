@@ -1,7 +1,7 @@
 import type { Context } from "./context";
 import type { PageSide, Session } from "./contract";
 import { element } from "./element";
-import { pixels, type Scheme, sideLook } from "./look";
+import { pixels, predictedDash, type Scheme, sideLook } from "./look";
 import type { Panels } from "./panels";
 import { areaSample, lineSample } from "./sample";
 import { colour, onThemeChange, STYLE, sessionColour } from "./style";
@@ -63,7 +63,9 @@ function overTime({ page }: Context): (Node | string)[][] {
   );
   const measured = traces.some((trace) => trace.role === "measured");
   const uncertain = traces.some((trace) => trace.sd !== null);
+  const predicted = traces.some((trace) => trace.predicted.length > 0);
   return [
+    ...(predicted ? [[lineSample(colour("text"), predictedDash()), "predicted ground forces"]] : []),
     ...(measured ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured"]] : []),
     ...(uncertain
       ? [

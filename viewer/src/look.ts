@@ -33,6 +33,8 @@ export function lineLook(line: Line, scheme: Scheme): Look {
     case "mean":
     case "main":
       return { ...mainLook(line, scheme), width: pixels(widths.mean), opacity: 1 };
+    case "predicted":
+      return { ...mainLook(line, scheme), width: pixels(widths.mean), dash: predictedDash(), opacity: 1 };
     case "measured":
       return { colour: colour("measured"), width: pixels(widths.axis), dash: sideDash(line.side), opacity: 1 };
     case "limit":
@@ -80,6 +82,14 @@ const VARIANT_DASHES: readonly (readonly number[])[] = [
   [1, 1.3],
   [5, 1.3, 1, 1.3],
 ];
+
+/** Dots of curves that rest on predicted ground forces while others were measured, in multiples of the width of a mean line. */
+const PREDICTED_DASH: readonly number[] = [1, 1];
+
+/** The same in CSS pixels. */
+export function predictedDash(): number[] {
+  return PREDICTED_DASH.map(scaled);
+}
 
 function sideDash(side: PageSide | null): number[] {
   return side === "l" ? STYLE.left.dash.map(scaled) : [];

@@ -251,7 +251,7 @@ export class PanelView {
     const digits = digitsFor(...now.y);
     const over = now.axis === "cycle" ? "over the gait cycle" : "over time";
     const curves = now.lines
-      .filter((line) => line.role === "mean" || line.role === "main")
+      .filter((line) => ["mean", "main", "predicted"].includes(line.role))
       .map((line) => `${line.name}: ${extremes(line.y, digits)}`);
     const red = now.shades.length > 0 ? [`${now.shades.length} parts are not feasible`] : [];
     const signs = positive ? [`positive is ${positive}${negative ? `, negative ${negative}` : ""}`] : [];

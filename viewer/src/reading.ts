@@ -20,7 +20,11 @@ export function readings(drawing: Drawing, session: Session, time: number): Read
   }
   const frame = Math.round((time - session.time.start_s) / session.time.step_s);
   const main = lines.filter((line) => line.role === "main");
-  return main.map(({ side, variant, y }) => ({ side, variant, x: time, value: y[frame] }));
+  return main.map(({ side, variant, y }) => {
+    const predicted = lines.find((one) => one.role === "predicted" && one.side === side && one.variant === variant);
+    const value = Number.isFinite(y[frame] ?? Number.NaN) ? y[frame] : (predicted?.y[frame] ?? y[frame]);
+    return { side, variant, x: time, value };
+  });
 }
 
 function cycleReading(lines: readonly Line[], cycles: readonly PageCycle[], side: PageSide, time: number): Reading {

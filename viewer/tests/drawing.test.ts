@@ -1,9 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Page, Trace } from "../src/contract";
-import { type Drawing, drawing, hasValues, type PanelSource, valueRange } from "../src/drawing";
+import { type Drawing, drawing, hasValues, type Line, type PanelSource, valueRange } from "../src/drawing";
+import { pixels, predictedDash } from "../src/look";
 import { Numbers } from "../src/numbers";
 import { readings } from "../src/reading";
+import { STYLE } from "../src/style";
 import { Block } from "./block";
 import { samplePage, type Variant } from "./sample";
 
@@ -147,6 +149,49 @@ test("the range shows a limit if it is near, zero if it is near, and no rounding
   assert.equal(valueRange([line("main", [1, 9])], [])[0], 0);
 });
 
+test("a curve on predicted forces is a line of its own that joins the measured one", async () => {
+  const block = new Block();
+  const page = samplePage(block, [WHOLE]);
+  const [session] = page.sessions;
+  const [source] = sourcesOf(page, "residual");
+  assert.ok(session && source);
+  const { start_s, step_s, frames } = session.time;
+  const values = block.add(Array.from({ length: frames }, (_, i) => i));
+  const at = (frame: number): number => start_s + frame * step_s;
+  const trace: Trace = {
+    name: "right",
+    side: "r",
+    role: "main",
+    values,
+    sd: null,
+    predicted: [[at(20), at(30)]],
+    origin: null,
+  };
+  const now = drawing(
+    [{ ...source, panel: { ...source.panel, traces: [trace] } }],
+    await Numbers.decode(block.encode()),
+    BOTH,
+  );
+  const [main, predicted] = now?.lines ?? [];
+  assert.ok(now && main && predicted);
+  assert.deepEqual(
+    [main.role, main.name, predicted.role, predicted.name],
+    ["main", "right", "predicted", "right, predicted"],
+  );
+  const shown = (line: Line): number[] => Array.from(line.y.keys()).filter((i) => Number.isFinite(line.y[i]));
+  assert.deepEqual([shown(predicted).at(0), shown(predicted).at(-1)], [19, 31]);
+  assert.ok(!shown(main).includes(20) && !shown(main).includes(30) && shown(main).includes(19));
+  // Neither solid as the right side nor dashed as the left one.
+  const left = STYLE.left.dash.map((length) => length * pixels(STYLE.lines_pt.mean));
+  assert.ok(predictedDash().length > 0);
+  assert.notDeepEqual(predictedDash(), left);
+  // The value at the cursor is that of either line.
+  assert.deepEqual(
+    [10, 25].map((frame) => readings(now, session, at(frame)).map((reading) => reading.value?.toFixed(0))),
+    [["10"], ["25"]],
+  );
+});
+
 test("several lines without a side have numbers and one reading each", async () => {
   const block = new Block();
   const page = samplePage(block, [WHOLE]);
@@ -154,7 +199,7 @@ test("several lines without a side have numbers and one reading each", async () 
   const [source] = sourcesOf(page, "residual");
   assert.ok(session && source);
   const values = block.add(Array.from({ length: session.time.frames }, (_, i) => i));
-  const second: Trace = { name: "up", side: null, role: "main", values, sd: null, origin: null };
+  const second: Trace = { name: "up", side: null, role: "main", values, sd: null, predicted: [], origin: null };
   const panel = { ...source.panel, traces: [...source.panel.traces, second] };
   const numbers = await Numbers.decode(block.encode());
   const now = drawing([{ ...source, panel }], numbers, BOTH);

@@ -273,6 +273,7 @@ function panel(block: Block, quantity: Quantity, variant: Variant, red: readonly
       role: "main",
       values: block.add(trace(side)),
       sd: block.add(trace(side).map((x) => 0.03 + 0.05 * Math.abs(x))),
+      predicted: [],
       origin,
     })),
     red: red.filter((span) => span.panel === quantity.id),
@@ -302,6 +303,7 @@ function emptyGroup(block: Block): Group {
     role,
     values: block.add(values),
     sd: null,
+    predicted: [],
     origin: null,
   });
   return {

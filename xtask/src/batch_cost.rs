@@ -35,10 +35,10 @@ const KILLS: usize = 10;
 const TICK_S: f64 = 0.01;
 
 /// What a run of the command took.
-struct Cost {
-    processor_s: f64,
+pub(crate) struct Cost {
+    pub(crate) processor_s: f64,
     wall_s: f64,
-    peak_mb: f64,
+    pub(crate) peak_mb: f64,
 }
 
 /// Measures and prints.
@@ -127,8 +127,13 @@ fn batch(program: &Path, set: &Path, output: &Path, words: &[&str]) -> Command {
 
 /// Runs a batch to its end.
 fn run_batch(program: &Path, set: &Path, output: &Path, words: &[&str]) -> Result<Cost, String> {
+    run_to_end(batch(program, set, output, words))
+}
+
+/// Runs a command to its end and returns what it took.
+pub(crate) fn run_to_end(mut command: Command) -> Result<Cost, String> {
     let (begun, before_s) = (Instant::now(), children_s()?);
-    let mut child = batch(program, set, output, words).spawn().map_err(|e| format!("ambulo: cannot start: {e}"))?;
+    let mut child = command.spawn().map_err(|e| format!("ambulo: cannot start: {e}"))?;
     let mut peak_mb = 0.0;
     let status = loop {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
@@ -141,7 +146,7 @@ fn run_batch(program: &Path, set: &Path, output: &Path, words: &[&str]) -> Resul
         }
     };
     if !status.success() {
-        return Err(format!("`ambulo batch` ended with {status}"));
+        return Err(format!("`ambulo` ended with {status}"));
     }
     Ok(Cost { processor_s: children_s()? - before_s, wall_s: begun.elapsed().as_secs_f64(), peak_mb })
 }

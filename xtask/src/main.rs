@@ -11,6 +11,7 @@ mod dist;
 #[cfg(test)]
 mod documents;
 mod house;
+mod keypoint_cost;
 mod measured;
 mod mutants;
 mod python;
@@ -46,12 +47,14 @@ usage: cargo xtask <command>
   same-bytes        compare every byte that two versions of the `ambulo` command write, on every verb and kind of file  OLD NEW
                     [--only CASE].. [--jobs N] [--keep: keep the folders]
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
+  keypoint-cost     measure processor time and memory per frame of `ambulo forces` on keypoints of video, and an hour of them  [PROGRAM]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
                     [--kills: and compute 10,000 trials with ten kills]
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
                     [--hours H: and the memory over so many hours of motion, as fast as they are taken]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
+                    [--recordings [NAME]: instead fit the clean recordings frame by frame and all frames together]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
@@ -66,7 +69,8 @@ usage: cargo xtask <command>
                     [--evaluations N] [--seed N] [--pull X]
   keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
-  twins             judge recordings, and altered copies of them that no person could make  [--only NAME]
+  twins             judge recordings, and altered copies of them: faults of laboratories, motions that no person could make, plates
+                    that were taken away  [--only NAME] [--fault NAME] [--write: docs/measured/TWINS.md]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
@@ -85,7 +89,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 13] = [
+const OWN: [&str; 14] = [
     "check",
     "house",
     "build-time",
@@ -98,6 +102,7 @@ const OWN: [&str; 13] = [
     "same-bytes",
     "command-cost",
     "batch-cost",
+    "keypoint-cost",
     "stream-cost",
 ];
 
@@ -131,6 +136,9 @@ const MISUSED: u8 = 2;
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "help and errors of the automation go to the terminal")]
 fn main() -> ExitCode {
+    if let Some(code) = check::in_place_of_compiler() {
+        return code;
+    }
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
@@ -145,6 +153,7 @@ fn main() -> ExitCode {
         ("same-bytes", _) => same_bytes::run(rest),
         ("command-cost", _) => command_cost::run(rest),
         ("batch-cost", _) => batch_cost::run(rest),
+        ("keypoint-cost", _) => keypoint_cost::run(rest),
         ("stream-cost", _) => stream_cost::run(rest),
         ("house", _) => house::run(rest),
         (command, _) if MEASUREMENTS.contains(&command) => measure(&words),

@@ -1,8 +1,12 @@
 //! Held samples of markers: programs that repeat frames or hold a marker, and people who stand still.
 
 use ambulo_body::findings::{Code, Findings};
-use ambulo_body::motion::{MarkerPath, MarkerRecording, release_held_markers};
-use ambulo_body::spatial::Vec3;
+use ambulo_body::model::{BySide, Side};
+use ambulo_body::motion::{
+    MarkerPath, MarkerRecording, PosedSegment, SegmentPoses, SensorPath, SensorRecording, release_held_markers,
+    release_held_poses, release_held_sensors,
+};
+use ambulo_body::spatial::{Mat3, Pose, Vec3, rotation_about};
 
 const FRAMES: usize = 200;
 const MARKERS: usize = 12;
@@ -115,4 +119,92 @@ fn a_foot_that_stands_in_rounded_data_is_not_held() {
     path[100..].iter_mut().for_each(|p| *p -= tail);
     let (_, _, said) = released(recording);
     assert!(said.is_empty(), "{said}");
+}
+
+/// The orientation of thing number `n` of a walk.
+fn turned(n: usize, frame: usize) -> Mat3 {
+    let phase = 0.06 * frame as f64 + n as f64;
+    rotation_about(Vec3::z(), 0.4 * phase.sin()) * rotation_about(Vec3::y(), 0.1 * phase.cos())
+}
+
+/// Sensors that turn, each frame showing those of another one.
+fn sensors(shown: impl Fn(usize, usize) -> usize) -> SensorRecording {
+    let path = |n: usize| SensorPath {
+        name: format!("S{n}"),
+        orientations: (0..FRAMES).map(|frame| Some(turned(n, shown(n, frame)))).collect(),
+    };
+    let times = (0..FRAMES).map(|frame| 0.01 * frame as f64).collect();
+    SensorRecording { name: String::new(), times, sensors: (0..7).map(path).collect() }
+}
+
+/// The released sensors and what was said.
+fn released_sensors(mut recording: SensorRecording) -> (SensorRecording, String) {
+    let mut findings = Findings::default();
+    release_held_sensors(&mut recording, &mut findings);
+    let said: Vec<String> = findings.as_slice().iter().map(|f| format!("{:?}: {}", f.code, f.message)).collect();
+    (recording, said.join("; "))
+}
+
+#[test]
+fn held_samples_of_sensors_are_gaps_and_a_frozen_end_is_dropped() {
+    let (after, said) = released_sensors(sensors(|_, frame| frame / 2 * 2));
+    let known = after.sensors[3].orientations.iter().flatten().count();
+    assert!(said.contains("every second frame") && known == FRAMES / 2, "{known}: {said}");
+    let (after, said) = released_sensors(sensors(|_, frame| frame.min(120)));
+    assert!(said.contains("frozen from 1.200 s on") && after.times.len() == 121, "{said}");
+    assert!(after.sensors.iter().all(|sensor| sensor.orientations.iter().flatten().count() == 121));
+    // One sensor loses its connection for 0.3 s.
+    let lost = |n: usize, frame: usize| if n == 2 && (60..90).contains(&frame) { 60 } else { frame };
+    let (after, said) = released_sensors(sensors(lost));
+    assert!(said.contains("sensors stay exactly in place") && said.contains("`S2` 29 frames from 0.610 s"), "{said}");
+    let gaps = |n: usize| after.sensors[n].orientations.iter().filter(|orientation| orientation.is_none()).count();
+    assert_eq!((gaps(1), gaps(2)), (0, 29));
+}
+
+#[test]
+fn sensors_that_turn_or_rest_keep_every_sample() {
+    for recording in [sensors(|_, frame| frame), sensors(|_, _| 0)] {
+        let (after, said) = released_sensors(recording.clone());
+        assert!(said.is_empty() && after == recording, "{said}");
+    }
+}
+
+#[test]
+fn held_poses_of_segments_are_gaps() {
+    let of = |n: usize, frame: usize| Pose {
+        rotation: turned(n, frame),
+        translation: Vec3::new(0.012 * frame as f64, 0.1 * n as f64, 0.0),
+    };
+    let legs = |side: Side| [PosedSegment::Thigh(side), PosedSegment::Shank(side), PosedSegment::Foot(side)];
+    let all = std::iter::once(PosedSegment::Pelvis).chain(Side::BOTH.into_iter().flat_map(legs));
+    let poses = |shown: fn(usize, usize) -> usize| SegmentPoses {
+        rate_hz: 100.0,
+        times: (0..FRAMES).map(|frame| 0.01 * frame as f64).collect(),
+        segments: all
+            .clone()
+            .enumerate()
+            .map(|(n, segment)| (segment, (0..FRAMES).map(|frame| Some(of(n, shown(n, frame)))).collect()))
+            .collect(),
+        heel: BySide::from_fn(|_| None),
+        toe_length_m: BySide::from_fn(|_| None),
+        statement: String::new(),
+    };
+    type Shown = fn(usize, usize) -> usize;
+    let cases: [(Shown, usize, &str); 3] = [
+        (|_, frame| frame, 0, ""),
+        (|_, frame| frame / 5 * 5, 160, "20 frames per second that were held as 100"),
+        (
+            |n, frame| if n == 1 { frame.min(100).max(frame / 150 * frame) } else { frame },
+            49,
+            "`right thigh` 49 frames",
+        ),
+    ];
+    for (shown, expected, words) in cases {
+        let (mut after, mut findings) = (poses(shown), Findings::default());
+        let is_held = release_held_poses(&mut after, &mut findings);
+        let said: Vec<String> = findings.as_slice().iter().map(|finding| finding.message.clone()).collect();
+        assert!(is_held == (expected > 0) && said.join(" ").contains(words), "{said:?}");
+        let gaps = after.of(PosedSegment::Thigh(Side::Right)).unwrap().iter().filter(|pose| pose.is_none()).count();
+        assert_eq!(gaps, expected, "{said:?}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Inputs of a calling program besides the words of a command line.
+//! Inputs of a calling program in addition to the words of a command line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

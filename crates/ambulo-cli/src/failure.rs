@@ -12,7 +12,7 @@ use std::io;
 pub struct Failure {
     /// Event, place and expected value; the text that the command prints after `error:`, without the hint.
     pub message: String,
-    /// What to do.
+    /// A remedy.
     pub hint: Option<String>,
     /// The input file concerned, as it was named.
     pub file: Option<String>,

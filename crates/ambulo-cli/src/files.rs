@@ -82,7 +82,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// A part of a file, which may be larger than what is read as a whole; shorter where the file ends.
+/// A part of a file of any size; shorter at the end of the file.
 fn read_part(caller: &Caller, path: &Path, part: Range<usize>) -> Result<Vec<u8>> {
     let shown = path.display();
     if let Some(content) = caller.content(path) {
@@ -176,6 +176,7 @@ pub(crate) fn last(path: &Path) -> String {
 /// Reports the remarks of a reader as findings.
 pub(crate) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
-        findings.report(Code::FileOdd, format!("{path}: {remark}"));
+        let code = if remark.is_about_clock { Code::MotionClock } else { Code::FileOdd };
+        findings.report(code, format!("{path}: {remark}"));
     }
 }

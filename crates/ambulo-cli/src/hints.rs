@@ -1,6 +1,6 @@
 //! Hints for errors and findings of the library: the command-line options that help.
 //!
-//! The library knows no options. Its errors and findings carry data; this table adds the hint.
+//! The library has no options. Its errors and findings carry data; this table adds the hint.
 
 use crate::request::WrongFields;
 use ambulo::analysis::{AnalysisError, ComparisonError, MarkerTrialError};
@@ -8,13 +8,13 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
-use ambulo::kinematics::calibration::CalibrationError;
+use ambulo::kinematics::calibration::CalibrationError as BodyError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
 use ambulo::optimal::OptimalWalkError;
 use ambulo::simulation::synthetic::SyntheticError;
-use ambulo::study::StudyError;
+use ambulo::study::{CalibrationError, StudyError};
 use ambulo_results::ResultsError;
 use std::error::Error;
 
@@ -61,7 +61,7 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
     Some(hint)
 }
 
-/// The hint for an error: that of the first of its causes that has one, and the options of the fields that it is about.
+/// The hint for an error: the hint of its first cause that has one, and the options of the fields that it is about.
 pub(crate) fn of_error(error: &anyhow::Error) -> Option<String> {
     let of_cause = causes(error).find_map(of_cause).map(str::to_owned);
     let fields = error.chain().filter_map(|cause| cause.downcast_ref::<JobError>()).flat_map(JobError::fields);
@@ -113,6 +113,9 @@ fn option(field: Field) -> Option<&'static str> {
         Field::Gap => "`--max-gap S`",
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
+        Field::Hip => "`--hip harrington|hara|bell|plug-in-gait`",
+        Field::KneeAxis => "`--knee-axis markers|least-cross-talk`",
+        Field::Functional => "`--functional FILE`",
         Field::ResidualReduction => "`--consistent`",
     };
     Some(option)
@@ -124,6 +127,7 @@ fn of_cause(cause: &(dyn Error + 'static)) -> Option<&'static str> {
         cause.downcast_ref().and_then(of_analysis),
         cause.downcast_ref().and_then(of_motion),
         cause.downcast_ref().and_then(of_trajectory),
+        cause.downcast_ref().and_then(of_calibration),
         cause.downcast_ref().and_then(of_prediction),
         cause.downcast_ref().and_then(of_skeleton),
         cause.downcast_ref().and_then(of_subject),
@@ -150,12 +154,12 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
-        StudyError::Markers(
-            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(CalibrationError::Markers { .. }),
-        ) => Some(
-            "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
+        StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. })) => {
+            Some(
+                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
              file, then give it with `--markers mine.toml`",
-        ),
+            )
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",
@@ -202,6 +206,12 @@ fn of_prediction(error: &PredictError) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+fn of_calibration(error: &CalibrationError) -> Option<&'static str> {
+    matches!(error, CalibrationError::NoPlates { .. }).then_some(
+        "`--grf FILE` or `--loads FILE.xml`, once per trial, name the forces that were measured apart from it",
+    )
 }
 
 fn of_smpl(error: &SmplError) -> Option<&'static str> {

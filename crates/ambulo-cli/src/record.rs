@@ -38,7 +38,7 @@ impl Record {
         Record::from_summary(&fs::read(folder.join(SUMMARY)).ok()?)
     }
 
-    /// The durations of this run; `None` if the folder has none, or those of another run.
+    /// The durations of this run; `None` if the folder has none, or the durations of another run.
     pub(crate) fn timings(&self, folder: &Path) -> Option<BTreeMap<String, f64>> {
         let timings: Timings = serde_json::from_slice(&fs::read(folder.join(TIMINGS)).ok()?).ok()?;
         (timings.run_id == self.run_id).then_some(timings.timing_ms)

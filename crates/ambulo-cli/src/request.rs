@@ -1,7 +1,7 @@
 //! Requests: a verb with its files and settings as values, and the same as JSON.
 //!
 //! The command line is parsed into these values; programs and the page in the browser state them in JSON
-//! (docs/REQUESTS.md). Names of fields are those of the types; a field that is left out has the default of its option.
+//! (docs/REQUESTS.md). Fields are named as in the types; a field that is left out has the default of its option.
 
 use crate::args::{
     BatchArgs, DemoArgs, EventsArgs, Existing, Handling, OUT, Outputs, SessionArgs, SimulateArgs, SweepArgs,
@@ -73,6 +73,12 @@ pub struct CalibrateRequest {
     /// Trials of one person walking over force plates.
     #[serde(deserialize_with = "json::sources")]
     pub trials: Vec<PathBuf>,
+    /// Tables of measured forces, one per trial; none: the force plates in the trials.
+    #[serde(default)]
+    pub tables: Vec<PathBuf>,
+    /// External loads of OpenSim, one per trial, or none.
+    #[serde(default)]
+    pub loads: Vec<PathBuf>,
     /// Person and settings of every trial.
     #[serde(default)]
     pub job: Job,
@@ -127,7 +133,7 @@ impl ForcesRequest {
         self.job.trial.as_deref() == Some(ForcesRequest::ALL_TRIALS)
     }
 
-    /// What is written.
+    /// Settings of the files to write.
     pub(crate) fn outputs(&self) -> Outputs {
         Outputs { convention: self.convention, keep: self.keep.clone() }
     }
@@ -137,7 +143,7 @@ impl CalibrateRequest {
     /// The file for the calibration, if none is given.
     pub(crate) const OUTPUT: &'static str = "person.toml";
 
-    /// The same for JSON.
+    /// [`CalibrateRequest::OUTPUT`] as the default of a field in JSON.
     fn output() -> PathBuf {
         CalibrateRequest::OUTPUT.into()
     }
@@ -145,7 +151,33 @@ impl CalibrateRequest {
     /// The request for these trials.
     #[must_use]
     pub fn of(trials: Vec<PathBuf>, job: Job) -> CalibrateRequest {
-        CalibrateRequest { trials, job, output: CalibrateRequest::output() }
+        let output = CalibrateRequest::output();
+        CalibrateRequest { trials, tables: Vec::new(), loads: Vec::new(), job, output }
+    }
+
+    /// The job of each trial, with its measured forces.
+    pub(crate) fn jobs(&self) -> Result<Vec<Job>> {
+        for (what, files) in [("tables of forces", &self.tables), ("files of external loads", &self.loads)] {
+            if !files.is_empty() && files.len() != self.trials.len() {
+                let (found, trials) = (files.len(), self.trials.len());
+                return Err(anyhow!(
+                    "found {found} {what} for {trials} trials; expected one per trial, in their order"
+                ));
+            }
+        }
+        let job = |(number, trial): (usize, &PathBuf)| {
+            let mut forces = self.job.forces.clone();
+            forces.table = self.tables.get(number).cloned().or(forces.table);
+            forces.loads = self.loads.get(number).cloned().or(forces.loads);
+            Job { recording: Some(trial.clone()), forces, ..self.job.clone() }
+        };
+        Ok(self.trials.iter().enumerate().map(job).collect())
+    }
+
+    /// Files that are read.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let own = self.trials.iter().chain(&self.tables).chain(&self.loads).map(PathBuf::as_path);
+        own.chain(self.job.files())
     }
 }
 
@@ -173,7 +205,7 @@ impl From<CalibrateRequest> for Request {
     }
 }
 
-/// What a request computes.
+/// Result of a request.
 pub enum Answer {
     /// Tables, summary and page.
     Results(Box<commands::Results>),
@@ -254,7 +286,7 @@ impl Request {
     /// Computes the request and returns its results. Only a batch and a session write files.
     ///
     /// # Errors
-    /// Those of the command; a computation that the caller stopped; a verb that only writes files.
+    /// Errors of the command; a computation that the caller stopped; a verb that only writes files.
     pub fn compute(&self, existing: Existing, caller: &Caller) -> Result<Answer, Failure> {
         let files = self.files();
         let computed = self.handled(Handling::quiet(existing)).computed(caller);
@@ -293,7 +325,7 @@ impl Request {
         Ok(Answer::Results(Box::new(results)))
     }
 
-    /// The same request, handled in another way.
+    /// The request with other handling of files and messages.
     fn handled(&self, how: Handling) -> Request {
         let Handling { replace, check, print } = how;
         let mut request = self.clone();
@@ -315,9 +347,7 @@ impl Request {
     fn files(&self) -> Vec<PathBuf> {
         let named: Vec<Option<&Path>> = match &self.0 {
             Verb::Forces(request) => request.job.files().map(Some).collect(),
-            Verb::Calibrate(request) => {
-                request.trials.iter().map(PathBuf::as_path).chain(request.job.files()).map(Some).collect()
-            }
+            Verb::Calibrate(request) => request.files().map(Some).collect(),
             Verb::Validate(args) => vec![Some(&args.folder), args.markers.as_deref().map(Path::new)],
             Verb::Batch(request) => vec![Some(&request.own.source), Some(&request.own.output)],
             Verb::Session(request) => {

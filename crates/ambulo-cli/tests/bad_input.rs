@@ -107,6 +107,15 @@ fn short_gaps_in_the_motion_are_interpolated_and_long_ones_rejected() {
 }
 
 #[test]
+fn rows_that_all_have_one_time_are_named_and_no_standing_person_is_blamed() {
+    let bench = Workbench::new("one_time");
+    bench.edit_rows("walk.mot", |rows| vec![rows[7].clone(); 50]);
+    let run = bench.forces(&RAW);
+    assert!(!run.stderr.contains("standing"), "{}", run.stderr);
+    run.refused(&["walk.mot", "all 50 rows have the time", "expected increasing times"]);
+}
+
+#[test]
 fn a_force_that_is_not_a_number_is_rejected_with_its_load_and_time() {
     let bench = Workbench::new("nan_forces");
     bench.edit_rows("walk_grf.mot", |mut rows| {

@@ -112,7 +112,6 @@ fn a_request_that_comes_byte_by_byte_is_ended() {
         assert!(begun.elapsed() < HANGS, "the request has no end");
         thread::sleep(Duration::from_millis(300));
     }
-    assert!(begun.elapsed() > Duration::from_secs(1));
     let own = format!("Host: {}\r\n", server.address());
     assert!(answered(&server, "GET /", &own).ends_with("<p>page</p>"));
 }

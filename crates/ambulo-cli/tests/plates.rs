@@ -370,6 +370,23 @@ fn a_stance_beside_the_plates_has_predicted_forces_that_every_table_marks() {
 }
 
 #[test]
+fn a_leg_whose_plate_is_left_out_is_named_beside_the_quality() {
+    let Some(data) = crate::shared_data::data() else { return };
+    let bench = Workbench::empty("plate_left_out");
+    let path = |name: &str| data.join("biomechzoo-HC032A").join(name).display().to_string();
+    let (walk, standing) = (path("HC032A03.c3d"), path("HC032A01.c3d"));
+    let words = ["forces", &walk, "--static", &standing, "--plate", "1=off", "-o", "out"];
+    let run = bench.run(&words).done();
+    run.warned(&["0 % of the left leg's loaded time was measured", "under the left foot", "was left out"]);
+    assert!(run.stdout.contains("  quality   doubtful"), "{}", run.stdout);
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["quality"]["reasons"][0]["measure"], "unmeasured_leg");
+    assert_eq!(summary["ground"]["measured_share"]["left"], 0.0);
+    let page = bench.text("out/report.html");
+    assert!(page.contains("0 % of the left leg"), "the page gives the reason");
+}
+
+#[test]
 fn tables_of_a_walk_with_all_loads_are_not_marked() {
     let bench = Workbench::new("all_loads");
     let run = bench.forces(&RAW).done();

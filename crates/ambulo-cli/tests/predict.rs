@@ -80,6 +80,9 @@ fn a_tracked_motion_agrees_with_its_forces_and_is_compared_with_plates() {
         summary["residual"]
     );
     assert!(!summary["comparison"].is_null() && !summary["tracking"]["predicted"].is_null());
+    // The elbows turn by 15 degrees at most, the shoulders too: a hand at 0.6 m moves by 0.3 m at most.
+    let hands_mm = summary["tracking"]["hands_mm"].as_f64().unwrap();
+    assert!(hands_mm < 300.0 && run.stdout.contains("a hand by at most"), "{hands_mm} mm: {}", run.stdout);
     for name in ["grf.mot", "grf_measured.mot", "kinematics.mot", "moments.sto", "powers.sto"] {
         assert!(bench.exists(&format!("out/{name}")), "{name}");
     }
@@ -314,9 +317,47 @@ fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() 
     bench.edit("person.toml", "mass_kg = 7", "mass_kg = 6");
     let other = [&["forces", walk][..], &body, &["--person", "person.toml"]].concat();
     bench.run(&other).refused(&[walk, "mass", "ambulo calibrate"]);
-    bench
-        .run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force", "--quiet"])
-        .refused(&["walk.trc", "plates"]);
+    bench.run(&["calibrate", "demo/input/walk.trc", "--mass", "75", "--force", "--quiet"]).refused(&[
+        "walk.trc",
+        "plates",
+        "`--grf FILE`",
+    ]);
     bench.write("person.toml", "mass_kg = 3");
     bench.run(&other).refused(&["person.toml", "stances"]);
+}
+
+/// A table of forces in place of a motion, and the other way round.
+#[test]
+fn tables_in_each_others_place_are_named() {
+    let bench = Workbench::new("exchanged-tables");
+    let forces = ["forces", "walk_grf.mot", "--model", "figure.osim"];
+    bench.run(&forces).refused(&["walk_grf.mot", "these are the columns of measured forces"]);
+    let standing = ["forces", "walk.mot", "--model", "figure.osim", "--static", "figure.osim"];
+    bench.run(&standing).refused(&["figure.osim", "found a file `.osim`", "expected markers"]);
+    let motion = [&MOTION[..], &["--grf", "walk.mot"]].concat();
+    bench.run(&motion).refused(&["walk.mot", "these are coordinates of a motion, not forces"]);
+}
+
+/// Markers, and coordinates of the same model, with the forces in a table.
+#[test]
+fn a_person_is_calibrated_by_every_recording_that_forces_takes() {
+    let bench = Workbench::empty("calibrated-tables");
+    bench.run(&["demo", "-o", "demo", "--quiet"]).done();
+    let [trc, mot, loads] = ["demo/input/walk.trc", "demo/input/walk.mot", "demo/input/walk_grf.xml"];
+    let model = ["--model", "demo/input/figure.osim", "--quiet", "-o"];
+    let twice = [&["calibrate", trc, mot, "--loads", loads, "--loads", loads][..], &model, &["both.toml"]].concat();
+    bench.run(&twice).done();
+    assert!(bench.text("both.toml").contains("leg_length_m"));
+    let feet = ["--right", "calcn_r:ground_force_r_", "--left", "calcn_l:ground_force_l_"];
+    let grf = [&["calibrate", mot, "--grf", "demo/input/walk_grf.mot"][..], &feet, &model, &["table.toml"]].concat();
+    bench.run(&grf).done();
+    let one = [&["calibrate", mot, "--loads", loads][..], &model, &["one.toml"]].concat();
+    bench.run(&one).done();
+    assert_eq!(bench.text("table.toml"), bench.text("one.toml"));
+    let few = [&["calibrate", trc, mot, "--loads", loads][..], &model, &["few.toml"]].concat();
+    bench.run(&few).refused(&["found 1 files of external loads for 2 trials", "one per trial"]);
+    assert!(!bench.exists("few.toml"));
+    // A standing trial has force plates; the reason is that nobody walks.
+    let stands = ["calibrate", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75", "-o", "stands.toml"];
+    bench.run(&stands).refused(&["standing.c3d", "does not walk in this trial (stand)"]);
 }

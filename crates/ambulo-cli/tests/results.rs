@@ -289,6 +289,8 @@ fn from_and_to_cut_the_range_without_changing_a_number() {
         "the range from 5 s to 6 s is outside of the recorded time, 0.000 s to 2.900 s",
         "hint: choose a range inside the recorded time",
     ]);
+    bench.forces(&["--from", "100"]).refused(&["the start of the range, 100 s, is outside of the recorded time"]);
+    bench.forces(&["--to", "-5"]).refused(&["the end of the range, -5 s, is outside of the recorded time"]);
     bench.forces(&["--from", "2", "--to", "1"]).refused(&["the start, 2 s, is after the end, 1 s"]);
     bench.forces(&["--cutoff", "80"]).refused(&["cut-off is 80 Hz", "hint: "]);
     // With 1e-308 Hz the filtered forces were not finite, and the verdict was feasible.

@@ -1,19 +1,19 @@
-//! What the content of a file is, by its first bytes.
+//! Identifies the content of a file by its first bytes.
 //!
 //! Files often have the name of another format, or contain a page of a server, a pointer to a large file or an archive
-//! in place of a recording. A reader that fails asks here what the file is, so that its error names the true reason. A
-//! file that can be read is never asked.
+//! in place of a recording. If a reader fails, the content is identified here, so that the error names the true reason.
+//! Readable files are not checked.
 //!
 //! Sources: git-lfs, docs/spec.md (the first line of a pointer); git-annex, doc/internals.mdwn (paths of objects);
-//! PKWARE, APPNOTE.TXT 4.3; the "magic" numbers of file(1). All from memory, unverified, but for those of formats that
-//! this crate reads. Pinned by: tests/other_contents.rs
+//! PKWARE, APPNOTE.TXT 4.3; the "magic" numbers of file(1). All from memory, unverified, except for formats that this
+//! crate reads. Pinned by: tests/other_contents.rs
 
 use crate::error::Error;
 use crate::plain_text::utf8;
 
-/// Bytes in which a kind of content is looked for.
+/// Number of bytes that are searched for a kind of content.
 const HEAD_BYTES: usize = 4096;
-/// Line breaks and characters below which damage by a program for text is not told from chance.
+/// Fewest line breaks and characters that show damage by a program for text; fewer may be chance.
 const ENOUGH: usize = 4;
 
 /// The kinds of content that readers of this crate expect.
@@ -30,7 +30,7 @@ pub(crate) const CSV: &str = "a table of comma-separated values (.csv)";
 /// A kind of content.
 struct Kind {
     name: &'static str,
-    /// How to get what a reader expects.
+    /// Remedy: how to get the expected content.
     remedy: &'static str,
     is: fn(&Head<'_>) -> bool,
 }
@@ -212,7 +212,7 @@ impl Error {
     }
 }
 
-/// What a program that took a binary file for text has made of it; `None` if its bytes do not show that.
+/// Damage by a program that treated a binary file as text; `None` if the bytes show none.
 pub(crate) fn was_changed_as_text(bytes: &[u8]) -> Option<&'static str> {
     match std::str::from_utf8(bytes) {
         Ok(text) if text.chars().filter(|c| !c.is_ascii()).count() >= ENOUGH => {

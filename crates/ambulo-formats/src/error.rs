@@ -15,11 +15,11 @@ pub enum Error {
     /// The content is of another format than the name of the file states.
     #[error("the content is {found}; expected {expected}. hint: {remedy}")]
     OtherContent {
-        /// What the content is.
+        /// Format of the content.
         found: &'static str,
         /// The format that is read.
         expected: &'static str,
-        /// How to get it.
+        /// Remedy: how to get the expected content.
         remedy: &'static str,
     },
     /// A line of a text file does not follow the format.
@@ -118,12 +118,24 @@ pub struct Remark {
     pub line: Option<usize>,
     /// Found value and its interpretation.
     pub message: String,
+    /// Whether the file contradicts itself on its frame rate, on which every speed and force depends.
+    pub is_about_clock: bool,
 }
 
 impl Remark {
     /// A remark on the whole file, or on a place without a line number.
     pub(crate) fn of_file(message: impl Into<String>) -> Remark {
-        Remark { line: None, message: message.into() }
+        Remark { line: None, message: message.into(), is_about_clock: false }
+    }
+
+    /// A remark on a line.
+    pub(crate) fn of_line(line: usize, message: impl Into<String>) -> Remark {
+        Remark { line: Some(line), ..Remark::of_file(message) }
+    }
+
+    /// A contradiction in the frame rate of the file.
+    pub(crate) fn of_clock(message: impl Into<String>) -> Remark {
+        Remark { is_about_clock: true, ..Remark::of_file(message) }
     }
 }
 

@@ -3,7 +3,7 @@
 //! Read: documents of OpenSim 2 and 3 (`<isDisabled>`, a `<defaults>` block) and of OpenSim 4 (`<appliesForce>`), also
 //! without the `<OpenSimDocument>` around them. Written: a document that OpenSim 4 loads.
 //! Not handled, and rejected: `<PrescribedForce>`, which OpenSim 1 and early 2 had in place of `<ExternalForce>`.
-//! Not handled, with a remark: a force with a data source of its own, and a kinematics file for turning its forces.
+//! Not handled, with a remark: a force with a separate data source, and a kinematics file for turning its forces.
 //! Pinned by: tests/loads.rs, tests/malformed.rs, tests/real_files.rs
 
 use crate::error::{Error, Remark, quoted};
@@ -82,7 +82,7 @@ impl ExternalLoads {
         if loads.datafile.is_none() {
             remarks.push(remark(node, "names no <datafile>; the file of forces must be given separately"));
         }
-        // It turns forces that are stated in the axes of a moving body; those of the ground do not need it.
+        // It turns forces that are stated in the axes of a moving body; forces in ground axes do not need it.
         let is_ground = |body: &str| body.rsplit('/').next().is_some_and(|name| name.eq_ignore_ascii_case("ground"));
         let is_turned = loads.forces.iter().any(|force| !is_ground(&force.force_expressed_in_body));
         if is_turned && assigned(node, "external_loads_model_kinematics_file").is_some() {
@@ -171,7 +171,7 @@ fn remarks_on(node: Node<'_, '_>, force: &ExternalForce) -> Vec<Remark> {
 fn remark(node: Node<'_, '_>, what: &str) -> Remark {
     let line = node.document().text_pos_at(node.range().start).row as usize;
     let message = format!("<{}> {} {what}", node.tag_name().name(), quoted(&name_of(node)));
-    Remark { line: Some(line), message }
+    Remark::of_line(line, message)
 }
 
 fn name_of(node: Node<'_, '_>) -> String {

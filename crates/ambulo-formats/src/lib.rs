@@ -1,6 +1,6 @@
 //! Readers and writers of the files of movement science. Bytes in, records out, and back.
 //!
-//! This crate knows no physics and opens no file: every reader takes bytes and returns a record with the content of the
+//! This crate has no physics and opens no file: every reader takes bytes and returns a record with the content of the
 //! file, in the file's own names; every writer returns bytes. Units are converted to SI (metres, seconds) where
 //! the format states its unit; angles stay as the file has them, with a flag.
 //!

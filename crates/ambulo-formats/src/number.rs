@@ -18,7 +18,7 @@ use std::fmt::Write as _;
 #[derive(Default)]
 pub struct NumberText {
     digits: zmij::Buffer,
-    /// Of a number whose exponent the library writes in another form.
+    /// Text of a number whose exponent the library writes in another form.
     text: String,
 }
 

@@ -37,9 +37,9 @@ pub enum ColumnValues {
 /// A column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// One value per row.
+    /// Values of the column, one per row.
     pub values: ColumnValues,
 }
 

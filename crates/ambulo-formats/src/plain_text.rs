@@ -1,13 +1,14 @@
 //! Text as the readers of tables expect it: UTF-8, tabs between cells, a point in numbers.
 //!
 //! Spreadsheets save a table of another program with their own separators. What they write is unambiguous if the
-//! separator stands behind the first word of the format, and if a comma in numbers can only be a decimal comma. The
+//! separator follows the first word of the format, and if a comma in numbers can only be a decimal comma. The
 //! lines of the text keep their numbers.
 
 use crate::error::Remark;
+use memchr::memchr2;
 use std::borrow::Cow;
 
-/// Bytes of a table in which its separators are looked for.
+/// Number of bytes of a table that are searched for its separators.
 const HEAD_BYTES: usize = 1 << 18;
 
 /// The text of a table, and what was unusual in it.
@@ -53,7 +54,7 @@ impl<'a> PlainText<'a> {
         PlainText { bytes, remarks }
     }
 
-    /// Text with tabs between its cells. `layout` finds in the first lines what stands between cells, and the line
+    /// Text with tabs between its cells. `layout` finds in the first lines the separator of cells, and the line
     /// behind which there are only numbers.
     pub(crate) fn with_tabs(mut self, layout: impl Fn(&[&str]) -> Option<Layout>) -> PlainText<'a> {
         let head = decode(&self.bytes[..self.bytes.len().min(HEAD_BYTES)]);
@@ -77,15 +78,15 @@ impl<'a> PlainText<'a> {
     }
 }
 
-/// What the first lines of a table show.
+/// Layout of a table, from its first lines.
 pub(crate) struct Layout {
-    /// What stands between the cells.
+    /// Separator of cells.
     pub(crate) separator: char,
     /// Number of the last line of the header, counted from 0.
     pub(crate) last_header_line: usize,
 }
 
-/// What stands between the first cell of a line, which `is_first` recognises, and the others.
+/// The separator after the first cell of a line, which `is_first` recognises.
 pub(crate) fn separator_behind(line: &str, is_first: impl Fn(&str) -> bool) -> Option<char> {
     let line = line.trim_start_matches('\u{feff}');
     let place = line.find([',', ';', '\t'])?;
@@ -113,7 +114,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text).filter(|text| !text.is_empty());
     std::iter::from_fn(move || {
         let text = rest?;
-        let end = text.find(['\n', '\r']).unwrap_or(text.len());
+        let end = memchr2(b'\n', b'\r', text.as_bytes()).unwrap_or(text.len());
         let (line, after) = text.split_at(end);
         let after = after.strip_prefix("\r\n").or_else(|| after.get(1..)).unwrap_or_default();
         rest = Some(after).filter(|after| !after.is_empty());
@@ -137,7 +138,7 @@ fn in_tabs(line: &str, separator: char, has_commas: bool) -> String {
     cells.join(if separator == ' ' { " " } else { "\t" })
 }
 
-/// Whether the only comma of a word stands between the digits of a number.
+/// Whether the only comma of a word is between the digits of a number.
 fn is_with_comma(word: &str) -> bool {
     word.matches(',').count() == 1 && !word.contains('.') && word.replacen(',', ".", 1).parse::<f64>().is_ok()
 }

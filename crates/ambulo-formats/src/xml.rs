@@ -3,6 +3,7 @@
 use crate::content;
 use crate::error::{Error, quoted};
 use crate::plain_text::decode;
+use memchr::memchr;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Largest number of nodes that is read; a full-body model has some 10,000. The limit bounds memory on
@@ -32,13 +33,29 @@ fn parse_text(text: &str, nodes: u32) -> Result<Document<'_>, Error> {
             return Err(Error::Xml { reason });
         }
     }
-    refuse_many_attributes(text)?;
+    if may_have_many_attributes(text) {
+        refuse_many_attributes(text)?;
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: nodes, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|e| Error::Xml { reason: e.to_string() })
 }
 
 /// Largest number of attributes of an element. The parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 1000;
+
+/// Whether an element may have very many attributes: `<` never occurs inside an element, so no part between two of them
+/// has fewer bytes than its element has attributes.
+fn may_have_many_attributes(text: &str) -> bool {
+    let is_many = |part: &str| part.len() > MAX_ATTRIBUTES && count(part.as_bytes(), b'=') > MAX_ATTRIBUTES;
+    let mut rest = text;
+    while let Some(length) = memchr(b'<', rest.as_bytes()) {
+        if is_many(&rest[..length]) {
+            return true;
+        }
+        rest = &rest[length + 1..];
+    }
+    is_many(rest)
+}
 
 /// Refuses an element with very many attributes, in one pass: comments, sections of text and instructions are left out.
 fn refuse_many_attributes(text: &str) -> Result<(), Error> {

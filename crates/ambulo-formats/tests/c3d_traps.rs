@@ -241,6 +241,32 @@ fn missing_parameters_are_remarks() {
 }
 
 #[test]
+fn of_three_stated_rates_the_two_that_agree_are_used_and_the_third_is_named() {
+    // The header states 100 frames per second, and 2 samples per frame.
+    for (parameter, analog, used, words) in [
+        (125.0, Some(200.0), 100.0, "the header's rate was used, because ANALOG:RATE agrees with it"),
+        (125.0, Some(250.0), 125.0, "POINT:RATE was used, because ANALOG:RATE agrees with it"),
+        (125.0, None, 125.0, "but the header states 100 frames per second; POINT:RATE was used"),
+        (100.0, Some(250.0), 100.0, "ANALOG:RATE is 250 Hz, but a frame has 2 samples; 200 Hz was used"),
+    ] {
+        let mut file = File::new(1, 1, 1, 2, -1.0);
+        file.reals(&[1.0, 2.0, 3.0, 0.0, 4.0, 5.0]).float(1, "RATE", &[], &[parameter]);
+        if let Some(analog) = analog {
+            file.float(2, "RATE", &[], &[analog]);
+        }
+        let (record, remarks) = C3d::read(&file.bytes()).unwrap();
+        let of_clock: Vec<&str> =
+            remarks.iter().filter(|remark| remark.is_about_clock).map(|remark| remark.message.as_str()).collect();
+        assert!(of_clock.len() == 1 && of_clock[0].contains(words), "{remarks:?}");
+        assert_close(&[record.point_rate_hz], &[used]);
+    }
+    let mut file = File::new(1, 1, 1, 2, -1.0);
+    file.reals(&[1.0, 2.0, 3.0, 0.0, 4.0, 5.0]).float(1, "RATE", &[], &[100.04]).float(2, "RATE", &[], &[200.0]);
+    let (_, remarks) = C3d::read(&file.bytes()).unwrap();
+    assert!(remarks.iter().all(|remark| !remark.is_about_clock), "rounding: {remarks:?}");
+}
+
+#[test]
 fn more_than_255_points_and_channels_have_their_names_in_several_lists() {
     let names: Vec<String> = (1..=600).map(|n| format!("P{n}")).collect();
     let words: Vec<&str> = names.iter().map(String::as_str).collect();

@@ -13,9 +13,10 @@ use ambulo_body::model::anatomy::Movement;
 use ambulo_body::numerics::{extremes, mean, range};
 use ambulo_walk::optimal::StrengthCurve;
 
-/// Departure of the mean speed from that of the gait up to which the legs carry the body as asked.
+/// Largest difference between mean speed and the gait's speed, as a share of the latter, with which the legs carry the
+/// body as asked.
 const AS_ASKED: f64 = 0.2;
-/// The largest joint moment of measured walking at free speed, that of the ankle [N.m/kg] (claim h1).
+/// The largest joint moment of measured walking at free speed, at the ankle [N.m/kg] (claim h1).
 const THRESHOLD_NM_KG: f64 = 1.6;
 /// Difference of a share of work that makes one gait differ from another.
 const DIFFERENT: f64 = 0.1;
@@ -51,7 +52,7 @@ pub(super) const FORWARD: Statement = Statement {
     },
 };
 
-/// Whether the legs carry the body as asked; the share is that of the speed of the gait.
+/// Whether the legs carry the body as asked; `share` is the mean speed as a share of the gait's speed.
 fn as_asked(share: f64) -> bool {
     (share - 1.0).abs() <= AS_ASKED
 }

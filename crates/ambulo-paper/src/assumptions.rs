@@ -94,7 +94,7 @@ pub fn sensitivities(setting: &Setting, paper: &Evidence, progress: &mut dyn FnM
     others.into_iter().enumerate().map(judged).collect()
 }
 
-/// The judgements that the change of a value can reverse; walks that it does not change are those of `paper`.
+/// The judgements that the change of a value can reverse; walks that it does not change come from `paper`.
 fn judged_near(paper: &Evidence, setting: &Setting, key: &str) -> Result<Vec<Judgement>, ReproductionError> {
     let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
     let changed = GAITS.iter().skip(1).position(|gait| key.starts_with(gait)).map_or(0, |place| place + 1);

@@ -20,7 +20,7 @@ pub enum ClaimKind {
 }
 
 impl ClaimKind {
-    /// In a table.
+    /// Words for tables.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -37,7 +37,7 @@ pub fn tally(claims: &[Claim]) -> [usize; 2] {
     count(claims.iter().map(|claim| (claim.kind, claim.pass)))
 }
 
-/// The same by the criteria and kinds before they were changed ([`Claim::former`]).
+/// The tally by the criteria and kinds before they were changed ([`Claim::former`]).
 #[must_use]
 pub fn former_tally(claims: &[Claim]) -> [usize; 2] {
     let before = |claim: &Claim| claim.former.as_ref().map(|former| (former.kind, former.pass));
@@ -58,7 +58,7 @@ pub struct Claim {
     pub kind: ClaimKind,
     /// The statement of the paper in short.
     pub paper: &'static str,
-    /// What is required for the claim to hold.
+    /// Criterion for the claim to hold.
     pub criterion: &'static str,
     /// Name of the most important number.
     pub headline: &'static str,
@@ -70,7 +70,7 @@ pub struct Claim {
     pub corrected: Option<Numbers>,
     /// Whether the claim holds in the paper's mode.
     pub pass: bool,
-    /// What was found, and why the claim holds or fails.
+    /// Result, and why the claim holds or fails.
     pub note: String,
     /// The criterion before it was changed, and its judgement of the same walks.
     pub former: Option<FormerJudgement>,

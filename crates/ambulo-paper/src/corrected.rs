@@ -19,7 +19,7 @@ use ambulo_walk::walking::{GroundContact, Shoes};
 /// The corrected mode. A walk is made consistent once and kept for the requests that differ in shoes, rate or friction.
 #[derive(Debug, Default)]
 pub struct CorrectedMode {
-    /// Step lengths and heights of the gaits; `None` for those of the built-in gaits.
+    /// Step lengths and heights of the gaits; `None` takes the built-in gaits.
     steps: Option<PaperSettings>,
     settings: ConsistentWalkSettings,
     cache: Vec<CachedWalk>,

@@ -25,7 +25,7 @@ const RATE_CYCLES: [usize; 2] = [8, 3];
 pub const MASSES: [f64; 3] = [60.0, 80.0, 100.0];
 /// Coefficients of friction at which sliding is measured.
 pub const FRICTIONS: [f64; 6] = [0.4, 0.8, 1.0, 2.0, 5.0, 1000.0];
-/// Those at which the corrected mode, for comparison, is simulated.
+/// Frictions at which the corrected mode is simulated, for comparison.
 const COMPARED_FRICTIONS: [f64; 2] = [1.0, 1000.0];
 
 /// Which walks are simulated.
@@ -49,9 +49,9 @@ pub struct Evidence {
     pub gaits: Vec<Run>,
     /// The standard gait with [`MASSES`] and the same lengths and radii.
     pub masses: Vec<Run>,
-    /// The same in soft shoes.
+    /// The three masses in soft shoes.
     pub soft_masses: Vec<Run>,
-    /// The same with radii of segments and soles for the same density.
+    /// The three masses with radii of segments and soles for the same density.
     pub dense_masses: Vec<Run>,
     /// The standard gait in rigid and in soft shoes.
     pub shoes: [Run; 2],

@@ -10,7 +10,7 @@ use super::ground_force::longest_contact;
 use super::open_values::open_values;
 use super::setting::Setting;
 
-/// A value that is changed for the claims that it may decide.
+/// A value that is changed, and the claims whose judgement may depend on it.
 struct Trial {
     claims: &'static [&'static str],
     key: &'static str,
@@ -23,7 +23,7 @@ const TRIALS: [Trial; 3] = [
     Trial { claims: &["c4", "g1", "g3", "j"], key: "short_step_height", value: 1.7 },
 ];
 
-/// Share of a stance in which people load a foot [%].
+/// Share of a stance in which a foot is loaded [%].
 const LOADED: usize = 10;
 
 /// Why a claim fails in the mode of the paper.

@@ -25,7 +25,7 @@ pub struct PaperFigure {
 /// One set of axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperPanel {
-    /// Above the axes.
+    /// Title above the axes.
     pub title: String,
     /// Quantity and unit of the abscissa.
     pub x_label: &'static str,
@@ -62,9 +62,9 @@ pub enum SeriesKind {
 /// The walks that figures are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureSet {
-    /// Those of the paper: files `figure3` to `figure7`.
+    /// Figures of the paper: files `figure3` to `figure7`.
     Paper,
-    /// What was put right since: files `corrected_figure3` to `corrected_figure7`.
+    /// Corrected figures: files `corrected_figure3` to `corrected_figure7`.
     Corrected,
 }
 
@@ -184,7 +184,7 @@ fn snapshots_figure(set: FigureSet, evidence: &Evidence) -> PaperFigure {
     }
 }
 
-/// Instants of a step, from foot strike of the right foot to that of the left foot.
+/// Instants of a step, from the strike of the right foot to the strike of the left foot.
 const INSTANTS: usize = 7;
 /// Lines between markers of the figure: trunk and head, legs with feet, arms; the left side is drawn thin.
 pub(super) const STICKS: [(&[&str], SeriesKind); 5] = [

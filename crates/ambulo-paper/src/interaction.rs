@@ -1,6 +1,6 @@
 //! Claims about other bodies and figures: loops cost from linear to quadratic time, obstacles move, a gripper grasps,
-//! two people walk hand in hand. They are simulated once, in the scenes of `data/scenes`, and do not depend on the mode
-//! of walking.
+//! two figures walk hand in hand. They are simulated once, in the scenes of `data/scenes`, and do not depend on the
+//! mode of walking.
 
 use super::claim::{ClaimKind, Former, Numbers, Statement, number, numbers};
 use super::evidence::Scope;
@@ -28,7 +28,7 @@ const CHEAP: &str = "the cost of a step, conjugate-gradient iterations times bod
     1.05 in the \
     number of constraints without closed loops and of at most 2 with all of them closed";
 
-/// What closed loops cost.
+/// Cost of closed loops.
 pub const LOOPS: Statement = Statement {
     id: "n1",
     kind: ClaimKind::ByConstruction,

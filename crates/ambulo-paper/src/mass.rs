@@ -100,9 +100,9 @@ fn departure(base: &Run, run: &Run, ratio: f64) -> f64 {
 /// Comparison of a part of the cycle.
 #[derive(Clone, Copy)]
 struct Comparison {
-    /// Root mean square over that of the base.
+    /// Root mean square, relative to the base [1].
     ratio: f64,
-    /// Root mean square of the difference after scaling, over that of the base.
+    /// Root mean square of the difference after scaling, relative to the base [1].
     difference: f64,
     /// Correlation.
     shape: f64,

@@ -45,7 +45,7 @@ pub struct MovingHead {
 /// A line between markers at each instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovingStick {
-    /// How it is drawn.
+    /// How the series is drawn.
     pub kind: SeriesKind,
     /// Points of each instant: forward of the hips and above the ground [m].
     pub points: Vec<Vec<[f64; 2]>>,

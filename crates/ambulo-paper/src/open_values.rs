@@ -1,12 +1,12 @@
 //! Every value that the paper does not give, with its range, source and reason.
 //!
-//! A [`Setting`](super::Setting) has a value for each of them. Times and angles of knots are added to those of
+//! A [`Setting`](super::Setting) has a value for each of them. Times and angles of knots are added to the knots of
 //! the curves in `ambulo-walk/data/gait/sub_cycles_1997.toml`, before step length and step height scale the angles.
 
 use ambulo_walk::gait::LegJoint;
 use std::sync::LazyLock;
 
-/// What a value is.
+/// Kind and range of a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OpenKind {
     /// A number with its least and largest plausible value.

@@ -25,7 +25,7 @@ const STEPS: [usize; 2] = [30, 10];
 /// Push at the trunk [N], its beginning and its duration [s].
 const PUSH_N: f64 = 100.0;
 const PUSH_S: [f64; 2] = [2.3, 0.2];
-/// Slope of the ground, which the figure does not know of.
+/// Slope of the ground (rise over run), of which the controller has no information.
 const SLOPE: f64 = 0.03;
 
 pub(super) const OWN_TORQUES: Statement = Statement {

@@ -7,7 +7,7 @@ use ambulo_body::spatial::{Inertia, Mat3};
 
 /// Mass of the paper's figure [kg].
 pub const MASS: f64 = 80.0;
-/// Its stature, which the paper does not give [m].
+/// Stature of the figure, which the paper does not give [m].
 pub const HEIGHT: f64 = 1.80;
 /// Length of the foot in Table 1, share of the stature.
 pub(super) const TABLE_FOOT: f64 = 0.089;
@@ -27,7 +27,7 @@ pub(super) fn of_mass(mass: f64) -> Result<Human, ReproductionError> {
     Ok(build.human()?)
 }
 
-/// The figure with another stature [m]; cross-sections and soles keep their ratio to those of its build.
+/// The figure with another stature [m]; cross-sections and soles keep their ratio to its build.
 pub(super) fn rebuilt(human: &Human, height: f64) -> Result<Human, ReproductionError> {
     let plain = human.build.human()?;
     let figure = Build { height, ..human.build }.human()?;

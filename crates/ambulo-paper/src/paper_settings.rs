@@ -27,11 +27,11 @@ pub struct PaperSettings {
     pub arm_swing: f64,
     /// Angle that is added to the flexion of both hips [rad].
     pub hip_offset: f64,
-    /// Interpolation of the joint curves. In style `knots`, and in a gait with knots of its own, `knots` has no effect.
+    /// Interpolation of the joint curves. In style `knots`, and in a gait with its own knots, `knots` has no effect.
     pub style: Style,
     /// Step length of the standard gait [m].
     pub standard_step: f64,
-    /// Whether the curves are those of the speed of this step.
+    /// Whether the curves belong to the speed of this step.
     pub angles_of_the_step: bool,
     /// Factor on the step height of all gaits.
     pub step_height: f64,

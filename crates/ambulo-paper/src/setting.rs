@@ -1,7 +1,7 @@
 //! A setting of the paper's mode: one value for everything that the paper does not give, and its file.
 //!
 //! A file has a name, a description, and the tables `figure`, `gait`, `ground` and `knots`. A value that a file leaves
-//! out is that of the setting `papers-results`. Files that the program writes have all values.
+//! out comes from the setting `papers-results`. Files that the program writes have all values.
 
 use super::claim::{Claim, ClaimKind};
 use super::error::ReproductionError;
@@ -33,7 +33,7 @@ pub const NAMED: [(&str, &str); 2] = [
 pub struct Setting {
     /// Name in results.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub about: String,
     /// Claims of the paper that are known to hold with it; `None` if it was not judged yet.
     pub holds: Option<Vec<String>>,
@@ -58,7 +58,7 @@ impl Setting {
         NAMED.iter().find(|(own, _)| *own == name).map(|(_, text)| Setting::from_toml(text))
     }
 
-    /// A setting from a file; values that it leaves out are those of [`Setting::papers_results`].
+    /// A setting from a file; values that it leaves out come from [`Setting::papers_results`].
     ///
     /// # Errors
     /// An unknown key, or a value that is not allowed, with its line.
@@ -243,7 +243,7 @@ pub fn paper_walk(trial: &TrialSettings<'_>) -> Result<Run, ReproductionError> {
     Setting::papers_results()?.walk(trial)
 }
 
-/// Letters of the claims of the paper, now or formerly, that could fail: those that a file may list.
+/// Letters that a file may list: claims of the paper, now or formerly, that could fail.
 pub const CLAIMS: [&str; 22] = [
     "a1", "c1", "c2", "c3", "c4", "d1", "e1", "e2", "e3", "f2", "g1", "g2", "g3", "h1", "h2", "h3", "h4", "i", "j",
     "m1", "m2", "n1",
@@ -278,7 +278,7 @@ fn refuse_unknown(root: &Table<'_>) -> Result<(), TomlError> {
     Ok(())
 }
 
-/// The claims that a file says hold.
+/// The claims that hold according to a file.
 fn read_holds(root: &Table<'_>) -> Result<Option<Vec<String>>, TomlError> {
     let Some(value) = root.get("holds") else { return Ok(None) };
     let known = CLAIMS.map(|id| (id, id));
@@ -322,7 +322,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace(char::is_control, " "))
 }
 
-/// What a value is, its range, source and reason, as lines of comment.
+/// Description, range, source and reason of a value, as lines of comment.
 fn comment(open: &OpenValue) -> String {
     let text = format!("{}: {}. Range: {}. Open because {}.", open.what, open.shown_range(), open.source, open.why);
     wrapped(&text)

@@ -1,4 +1,5 @@
-//! How often claims hold over values that the paper does not give, sampled jointly, and which value decides each claim.
+//! How often claims hold over values that the paper does not give, sampled jointly, and the most influential value for
+//! each claim.
 //!
 //! The samples take hours, so `cargo xtask claim-shares` stores the results in `data/shares.csv`.
 
@@ -25,7 +26,7 @@ pub struct StoredShares {
     pub claims: Vec<ClaimShare>,
 }
 
-/// How often a claim holds, and the value that decides it.
+/// How often a claim holds, and its most influential value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClaimShare {
     /// Letter and number of the claim.
@@ -131,7 +132,7 @@ fn ends(values: &[f64], held: &[bool]) -> [f64; 2] {
     sorted.sort_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else { return [0.0; 2] };
     if sorted[0] >= sorted[last] {
-        // A switch that is never drawn decides nothing.
+        // A switch that is never drawn has no influence.
         return [share(held); 2];
     }
     let [low, high] = [sorted[last / 3], sorted[last - last / 3]];
@@ -148,7 +149,7 @@ fn share(held: &[bool]) -> f64 {
     held.iter().filter(|held| **held).count() as f64 / held.len().max(1) as f64
 }
 
-/// Number of the paper's claims that could fail among judgements: those that hold, and all.
+/// Number of the paper's claims that could fail among judgements: claims that hold, and all claims.
 #[must_use]
 pub fn judged_of_the_paper(judgements: &[Judgement]) -> [usize; 2] {
     let own = || judgements.iter().filter(|judgement| judgement.kind == ClaimKind::Paper);

@@ -1,4 +1,4 @@
-//! The verbs of the command as functions: requests, whose defaults, checks and messages are those of the command.
+//! The verbs of the command as functions: requests with the defaults, checks and messages of the command.
 
 use crate::failure::exception;
 use crate::request::{Given, typed};
@@ -17,7 +17,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-/// How often a computation looks whether the user pressed Ctrl-C.
+/// Interval at which a computation checks whether the user pressed Ctrl-C.
 pub(crate) const SIGNALS: Duration = Duration::from_millis(50);
 /// As much as the first thread of a program usually has.
 const STACK_BYTES: usize = 8 << 20;
@@ -45,16 +45,19 @@ pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: 
     answered(py, ForcesRequest { job, convention, keep, ..ForcesRequest::default() }, Existing::Kept, &files)
 }
 
-/// The calibration of a person: the content of the file of `ambulo calibrate`. The options are those of every trial.
+/// The calibration of a person: the content of the file of `ambulo calibrate`. `measured` has the tables of forces and
+/// the external loads of the trials, or none; the options are those of every trial.
 #[pyfunction]
 pub(crate) fn calibrate<'py>(
     py: Python<'py>,
     trials: Vec<PathBuf>,
+    measured: [Vec<PathBuf>; 2],
     options: &Bound<'py, PyDict>,
     files: Files,
 ) -> PyResult<Bound<'py, PyAny>> {
     let Given { job, .. } = Given::of(options)?;
-    answered(py, CalibrateRequest::of(trials, job), Existing::Kept, &files)
+    let [tables, loads] = measured;
+    answered(py, CalibrateRequest { tables, loads, ..CalibrateRequest::of(trials, job) }, Existing::Kept, &files)
 }
 
 /// A request: a dictionary with the verb as its only key (docs/REQUESTS.md), where None leaves a field out. `of_all`
@@ -82,7 +85,7 @@ pub(crate) fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Results> {
     py.detach(|| ambulo_cli::open(&folder)).map(Results).map_err(|failure| exception(py, failure))
 }
 
-/// What a request computes.
+/// Computes a request.
 fn answered<'py>(
     py: Python<'py>,
     request: impl Into<Request>,

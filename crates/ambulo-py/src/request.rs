@@ -3,6 +3,7 @@
 use crate::failure::{exception, refused};
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::GroundSettings;
 use ambulo_cli::{Outputs, Request};
 use ambulo_results::{Convention, Keep};
@@ -27,7 +28,7 @@ struct Named<'a, 'py> {
 }
 
 impl Given {
-    /// From options by their names in Python. None and the defaults of Python are left out.
+    /// Makes a request from options by their names in Python. None and the defaults of Python are left out.
     pub(crate) fn of(options: &Bound<'_, PyDict>) -> PyResult<Given> {
         let mut request = Given::default();
         for (name, value) in options {
@@ -69,6 +70,7 @@ impl Given {
             }
             "recording" => &mut job.recording,
             "static" => &mut job.standing,
+            "functional" => &mut job.functional,
             "marker_set" => &mut job.marker_set,
             "smpl" => &mut job.smpl,
             "grf" => &mut job.forces.table,
@@ -121,6 +123,8 @@ impl Given {
             "ground" => return self.take_ground(given, GroundSettings::NoContact, !given.switch()?),
             "refit" => settings.refit = given.switch()?,
             "fit" => settings.fit = Some(given.one_of(&MarkerFitting::ALL)?),
+            "knee_axis" => settings.knee_axis = given.one_of(&KneeAxis::ALL)?,
+            "hip" => settings.hip = given.one_of(&HipRegression::ALL)?,
             "max_gap" => settings.longest_gap_s = given.number()?,
             "start" => settings.window.from_s = Some(given.number()?),
             "end" => settings.window.to_s = Some(given.number()?),
@@ -230,7 +234,7 @@ pub(crate) fn typed(request: &Bound<'_, PyDict>) -> PyResult<Request> {
     Request::of_value(&json(request)?).map_err(|failure| exception(request.py(), failure))
 }
 
-/// A value as JSON: paths are text, numbers may be those of NumPy.
+/// A value as JSON: paths are text; numbers may be NumPy numbers.
 fn json(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(fields) = value.cast::<PyDict>() {
         let fields = fields.iter().filter(|(_, value)| !value.is_none());

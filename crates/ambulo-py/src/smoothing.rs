@@ -1,4 +1,4 @@
-//! How a motion is smoothed, as arguments.
+//! Arguments for the smoothing of a motion.
 
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;
@@ -11,7 +11,7 @@ pub(crate) enum Cutoff {
     Word(String),
 }
 
-/// The smoother that is asked for; `None` if nothing is. Parts that are not given are those of the command.
+/// The requested smoother; `None` if none is requested. Omitted parts have the defaults of the command.
 pub(crate) fn smoother(
     filter: Option<&str>,
     cutoff: Option<Cutoff>,

@@ -80,7 +80,7 @@ impl Stream {
         })
     }
 
-    /// Adds frames; returns those that became final.
+    /// Adds frames; returns the frames that became final.
     fn push<'py>(&self, py: Python<'py>, q: MotionArray<'py>) -> PyResult<Frames<'py>> {
         let q = q.as_array();
         let frames = py.detach(|| self.pushed(q))?;

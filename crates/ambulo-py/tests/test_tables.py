@@ -87,6 +87,7 @@ def test_centres_of_pressure_are_columns_of_the_ground_forces(result):
 
 def test_the_summary_is_the_one_of_the_command(result, folder):
     written = json.loads((folder / "summary.json").read_text())
+    assert result.knee_adduction == written["knee_adduction_moment"]
     found = result.summary
     # Names of files differ by their folders; hashes exist only after a run was written.
     for key in ("run_id", "files", "input", "findings"):

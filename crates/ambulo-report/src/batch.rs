@@ -20,11 +20,11 @@ const LISTED: usize = 100;
 /// A quantity of every trial whose distribution is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BatchQuantity {
-    /// Its column in the table of trials.
+    /// Column of the quantity in the table of trials.
     pub column: &'static str,
     /// Title of its panel.
     pub title: &'static str,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'static str,
     decimals: usize,
 }
@@ -48,7 +48,7 @@ const fn quantity(column: &'static str, title: &'static str, unit: &'static str,
 pub struct BatchTrial {
     /// Path of the recording.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// Why it was not computed.
     pub error: Option<String>,

@@ -42,7 +42,7 @@ impl ClinicalGroup {
     }
 }
 
-/// Which coordinates of a model measure which movements, and their signs.
+/// Coordinates of a model that measure clinical movements, and their signs.
 #[derive(Debug, Clone)]
 pub struct ClinicalNames {
     entries: Vec<Entry>,
@@ -148,14 +148,18 @@ pub struct ClinicalQuantity {
     pub positive: &'static str,
     /// Meaning of negative values: `flexor`.
     pub negative: &'static str,
-    /// Its kind.
+    /// Kind of the quantity.
     pub group: ClinicalGroup,
     /// Name in `cycles.csv` for the cycles of each foot: `knee_angle_moment`.
     pub columns: BySide<String>,
-    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces their name in `cycles.csv`.
+    /// Coordinate of each side in files over time: `knee_angle_r`; for ground forces and derived quantities their name
+    /// in `cycles.csv`.
     pub coordinates: BySide<String>,
     /// Whether it belongs to pelvis or trunk: files over time then have one column for both sides.
     pub central: bool,
+    /// The movement of a quantity that no coordinate has: a moment from the reaction in the joint, or an angle from the
+    /// markers of its segments. Over time it is in `clinical.csv` alone.
+    pub derived: Option<Movement>,
     /// +1 or -1 for each side: displayed number = sign x number in the file.
     signs: BySide<f64>,
 }
@@ -229,19 +233,28 @@ enum Source {
     Movement(Movement, f64),
     /// The same for a movement defined for the right side: negated for the left side.
     Own(Movement, f64),
+    /// A movement of a leg that may have no coordinate, with the sign of what is displayed: the angle then comes from
+    /// the segments' markers, the moment from the joint's reaction.
+    Joint(Movement, f64),
+    /// The same, always without the coordinate.
+    Derived(Movement, f64),
     /// A ground force, with its signs on the right and the left.
     Ground(&'static str, [f64; 2]),
 }
 
 impl Row {
     fn found(&self, names: &ClinicalNames, has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
+        let is_known = |movement| Side::BOTH.into_iter().any(|side| names.find(movement, side).is_some());
         let (movement, signs) = match self.source {
-            Source::Ground(column, signs) => {
-                let column = BySide::from([column, column]).map(str::to_owned);
-                return has(&column.right).then(|| self.quantity(column.clone(), column, signs.into()));
-            }
+            Source::Ground(column, signs) => return self.named(column, signs, has),
             Source::Movement(movement, sign) => (movement, BySide { right: sign, left: sign }),
             Source::Own(movement, sign) => (movement, BySide { right: sign, left: -sign }),
+            Source::Joint(movement, sign) if is_known(movement) => (movement, BySide { right: sign, left: sign }),
+            Source::Joint(movement, sign) | Source::Derived(movement, sign) => {
+                let derived = is_known(Movement::HipAdduction).then_some(movement)?;
+                let found = self.named(self.id, [sign; 2], has)?;
+                return Some(ClinicalQuantity { derived: Some(derived), ..found });
+            }
         };
         // A missing leg gets the names of the other leg.
         let entries = BySide::from_fn(|side| names.find(movement, side).or_else(|| names.find(movement, side.other())));
@@ -255,10 +268,16 @@ impl Row {
         Some(self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs))
     }
 
+    /// A quantity that belongs to no coordinate, with the same name on both sides.
+    fn named(&self, column: &str, signs: [f64; 2], has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
+        let columns = BySide::from([column, column]).map(str::to_owned);
+        has(column).then(|| self.quantity(columns.clone(), columns, signs.into()))
+    }
+
     fn quantity(&self, columns: BySide<String>, coordinates: BySide<String>, signs: BySide<f64>) -> ClinicalQuantity {
         let central = match self.source {
             Source::Movement(movement, _) | Source::Own(movement, _) => is_central(movement),
-            Source::Ground(..) => false,
+            Source::Joint(..) | Source::Derived(..) | Source::Ground(..) => false,
         };
         ClinicalQuantity {
             id: self.id,
@@ -270,6 +289,7 @@ impl Row {
             columns,
             coordinates,
             central,
+            derived: None,
             signs,
         }
     }
@@ -305,6 +325,7 @@ const POWERS: ClinicalGroup = ClinicalGroup::Powers;
 const GROUND: ClinicalGroup = ClinicalGroup::Ground;
 
 const POWER: [&str; 2] = ["generated", "absorbed"];
+const ROTATORS: [&str; 2] = ["external rotator", "internal rotator"];
 
 /// All rows. Signs of the movements: [`Movement`]; of panels: docs/CONVENTIONS.md, "Signs in panels".
 #[rustfmt::skip]
@@ -316,8 +337,10 @@ const ROWS: &[Row] = &[
     row("hip_adduction_angle", "Hip adduction", ["adduction", "abduction"], KINEMATICS, same(Movement::HipAdduction)),
     row("hip_rotation_angle", "Hip rotation", ["internal", "external"], KINEMATICS, same(Movement::HipRotation)),
     row("knee_flexion_angle", "Knee flexion", ["flexion", "extension"], KINEMATICS, same(Movement::KneeFlexion)),
-    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS, same(Movement::KneeAdduction)),
-    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS, same(Movement::KneeRotation)),
+    row("knee_adduction_angle", "Knee adduction", ["varus", "valgus"], KINEMATICS,
+        Source::Joint(Movement::KneeAdduction, 1.0)),
+    row("knee_rotation_angle", "Knee rotation", ["internal", "external"], KINEMATICS,
+        Source::Joint(Movement::KneeRotation, 1.0)),
     row("ankle_dorsiflexion_angle", "Ankle dorsiflexion", ["dorsiflexion", "plantarflexion"], KINEMATICS,
         same(Movement::AnkleDorsiflexion)),
     row("subtalar_angle", "Subtalar inversion", ["inversion", "eversion"], KINEMATICS,
@@ -330,13 +353,17 @@ const ROWS: &[Row] = &[
     row("hip_flexion_moment", "Hip flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::HipFlexion)),
     row("hip_adduction_moment", "Hip adduction moment", ["abductor", "adductor"], MOMENTS,
         against(Movement::HipAdduction)),
-    row("hip_rotation_moment", "Hip rotation moment", ["external rotator", "internal rotator"], MOMENTS,
-        against(Movement::HipRotation)),
+    row("hip_rotation_moment", "Hip rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::HipRotation, -1.0)),
     row("knee_flexion_moment", "Knee flexion moment", ["extensor", "flexor"], MOMENTS, against(Movement::KneeFlexion)),
     row("knee_adduction_moment", "Knee adduction moment", ["abductor", "adductor"], MOMENTS,
-        against(Movement::KneeAdduction)),
+        Source::Joint(Movement::KneeAdduction, -1.0)),
+    row("knee_rotation_moment", "Knee rotation moment", ROTATORS, MOMENTS, Source::Joint(Movement::KneeRotation, -1.0)),
     row("ankle_dorsiflexion_moment", "Ankle moment", ["plantarflexor", "dorsiflexor"], MOMENTS,
         against(Movement::AnkleDorsiflexion)),
+    row("ankle_inversion_moment", "Ankle inversion moment", ["evertor", "invertor"], MOMENTS,
+        Source::Derived(Movement::SubtalarInversion, -1.0)),
+    row("ankle_rotation_moment", "Ankle rotation moment", ROTATORS, MOMENTS, Source::Derived(Movement::FootRotation,
+        -1.0)),
     row("hip_flexion_power", "Hip power", POWER, POWERS, same(Movement::HipFlexion)),
     row("knee_flexion_power", "Knee power", POWER, POWERS, same(Movement::KneeFlexion)),
     row("ankle_dorsiflexion_power", "Ankle power", POWER, POWERS, same(Movement::AnkleDorsiflexion)),

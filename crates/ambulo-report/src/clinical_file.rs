@@ -8,18 +8,21 @@
 //! | ground    | body weights | `ground_force_vertical_r`  |
 //!
 //! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
-//! [`clinical_angles`]; all other numbers are those of the files with OpenSim signs, times a constant.
+//! [`clinical_angles`]. Moments that no coordinate has come from the reactions in the joints
+//! ([`ambulo::dynamics::JointMoments`]), and angles of the knee from the markers of its segments
+//! ([`Outcome::knee_angles`]). All other numbers come from the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;
+use ambulo::dynamics::JointMoments;
 use ambulo::ground::feet;
 use ambulo::ground::stances::StanceSource;
 use ambulo::kinematics::{ClinicalAngles, clinical_angles};
-use ambulo::model::anatomy::{PelvicFrame, PelvicFrameError};
+use ambulo::model::anatomy::{Movement, PelvicFrame, PelvicFrameError};
 use ambulo::model::{BySide, CoordinateId, Model, Side};
 use ambulo::study::{ForceOrigin, Outcome, Tracking};
 use ambulo_formats::table::{Table, TableRows};
-use ambulo_results::{CLINICAL, Convention, ConventionSummary, OutputFile, ground_columns};
+use ambulo_results::{CLINICAL, Convention, ConventionSummary, JOINT_MOMENTS, OutputFile, ground_columns};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -33,12 +36,17 @@ pub(crate) const PELVIS_AND_HIPS: [&str; 6] = [
     "hip_rotation_angle",
 ];
 
+/// The angles that come from the markers of the segments where the knee of a body only flexes.
+pub(crate) const KNEE_ANGLES: [&str; 2] = ["knee_adduction_angle", "knee_rotation_angle"];
+
 /// `clinical.csv` of a run, and the convention of its angles.
 #[must_use]
 pub fn clinical_file(outcome: &Outcome, chosen: Convention) -> (OutputFile<'_>, ConventionSummary) {
     let (angles, convention) = angles_of(outcome, chosen);
     let table = move || {
-        let curves = Curves::of(&outcome.body, outcome.complete(), angles.as_ref()).without(&outcome.not_measured);
+        let curves = Curves::of(&outcome.body, outcome.complete(), angles.as_ref())
+            .without(&outcome.not_measured)
+            .with_knees(outcome.knee_angles());
         let columns = curves.columns(outcome.load_sources().as_ref());
         Ok(TableRows::of_table(&Rc::new(Table::new("Clinical curves", columns)?)))
     };
@@ -78,6 +86,10 @@ pub(crate) struct Curves<'a> {
     angles: Option<&'a ClinicalAngles>,
     /// Coordinates whose angles, moments and powers are no results.
     not_measured: &'a [CoordinateId],
+    /// Moments of the legs in three planes.
+    moments: JointMoments<'a>,
+    /// Varus and internal rotation of knees from the markers of their segments [rad].
+    knees: BySide<Option<[Vec<f64>; 2]>>,
     /// Columns of `grf.mot` [N, m, N.m].
     ground: Vec<(String, Vec<f64>)>,
     /// The mass that moments, powers and ground forces are divided by [kg].
@@ -91,20 +103,28 @@ impl<'a> Curves<'a> {
             true => Vec::new(),
             false => ground_columns(&feet(model, &analysis.ground), frames),
         };
-        Curves { model, analysis, angles, not_measured: &[], ground, mass_kg: analysis.mass.kg }
+        let moments = analysis.joint_moments(model);
+        let (knees, mass_kg) = (BySide::default(), analysis.mass.kg);
+        Curves { model, analysis, angles, not_measured: &[], moments, knees, ground, mass_kg }
     }
 
-    /// The same without the quantities of coordinates that are not measured.
+    /// The same with angles of knees from the markers of their segments.
+    pub(crate) fn with_knees(self, knees: BySide<Option<[Vec<f64>; 2]>>) -> Curves<'a> {
+        Curves { knees, ..self }
+    }
+
+    /// These curves without the quantities of coordinates that are not measured.
     pub(crate) fn without(self, not_measured: &'a [CoordinateId]) -> Curves<'a> {
         Curves { not_measured, ..self }
     }
 
-    /// The same per another mass [kg], such as that of the one body of several trials.
+    /// These curves per another mass [kg], such as the mass of a body shared by several trials.
     pub(crate) fn per_mass(self, mass_kg: f64) -> Curves<'a> {
         Curves { mass_kg, ..self }
     }
 
-    /// `sources` are those of the loads ([`Outcome::load_sources`]): what depends on an unknown load is not a number.
+    /// The columns of the table. `sources` says where loads come from ([`Outcome::load_sources`]); values that depend
+    /// on an unknown load are NaN.
     fn columns(&self, sources: Option<&BySide<Vec<f64>>>) -> Vec<(String, Vec<f64>)> {
         let mut columns = vec![("time".to_owned(), self.analysis.trajectory.grid().times())];
         for quantity in self.quantities() {
@@ -125,6 +145,10 @@ impl<'a> Curves<'a> {
         let stems = self.model.coordinate_ids().map(|id| self.model.coordinate_stem(id));
         let mut names: BTreeSet<String> =
             stems.flat_map(|stem| ["angle", "moment", "power"].map(|what| format!("{stem}_{what}"))).collect();
+        names.extend(JOINT_MOMENTS.map(|(name, _)| name.to_owned()));
+        if self.knees.values().any(Option::is_some) {
+            names.extend(KNEE_ANGLES.map(str::to_owned));
+        }
         if !self.ground.is_empty() {
             names.extend(["vertical", "fore_aft", "lateral"].map(|axis| format!("ground_force_{axis}")));
         }
@@ -133,6 +157,10 @@ impl<'a> Curves<'a> {
 
     /// Whether a quantity follows from a coordinate that is not measured.
     fn is_unmeasured(&self, quantity: &ClinicalQuantity, side: Side) -> bool {
+        let is_above = |movement| self.model.anatomy().is_any_above(self.not_measured, movement, side);
+        if quantity.derived.is_some_and(is_above) {
+            return true;
+        }
         self.coordinate(quantity, side).is_some_and(|id| self.not_measured.contains(&id))
     }
 
@@ -147,14 +175,20 @@ impl<'a> Curves<'a> {
         let forces = &self.analysis.forces;
         match quantity.group {
             ClinicalGroup::Kinematics => {
+                if let Some(movement) = quantity.derived {
+                    let [varus, turn] = self.knees[side].as_ref()?;
+                    let angle = if movement == Movement::KneeAdduction { varus } else { turn };
+                    return Some(scaled(angle, factor * 1.0_f64.to_degrees()));
+                }
                 self.angles.and_then(|angles| clinical_angle(angles, quantity.id, side)).or_else(|| {
                     let values = self.analysis.trajectory.values(self.coordinate(quantity, side)?);
                     Some(scaled(values, factor * 1.0_f64.to_degrees()))
                 })
             }
-            ClinicalGroup::Moments => {
-                Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor))
-            }
+            ClinicalGroup::Moments => match quantity.derived {
+                Some(movement) => Some(scaled(&self.moments.column(movement, side)?, factor)),
+                None => Some(scaled(&forces.generalized[self.coordinate(quantity, side)?.index()], factor)),
+            },
             ClinicalGroup::Powers => {
                 Some(scaled(&self.analysis.powers(self.model).column(self.coordinate(quantity, side)?), factor))
             }
@@ -175,7 +209,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Values that depend on the load of a foot, without those of unknown loads.
+/// Values that depend on the load of a foot; NaN where the load is unknown.
 fn known(mut values: Vec<f64>, sources: Option<&[f64]>) -> Vec<f64> {
     let unknown = StanceSource::Unknown.number();
     let is_unknown = |source: &f64| source.total_cmp(&unknown).is_eq();

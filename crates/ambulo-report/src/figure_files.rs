@@ -1,15 +1,16 @@
 //! Makes the figure files of a run.
 
 use crate::clinical::{ClinicalNames, clinical_quantities};
-use crate::clinical_file::{angles_of, clinical_angle};
+use crate::clinical_file::{KNEE_ANGLES, angles_of, clinical_angle};
 use crate::figures::{CycleFigures, FigureError, Mark, PredictedMotion, prediction_figure, residual_figure};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::feasibility::{Check, Person, Reason};
 use ambulo::analysis::{Analysis, Cycle, over_cycle};
 use ambulo::kinematics::ClinicalAngles;
-use ambulo::model::{CoordinateId, Model, Side};
+use ambulo::model::anatomy::Movement;
+use ambulo::model::{BySide, CoordinateId, Model, Side};
 use ambulo::study::{Outcome, PredictedGround};
-use ambulo_results::{Convention, CycleRow, OutputFile, cycle_rows};
+use ambulo_results::{Convention, CycleRow, JOINT_MOMENTS, OutputFile, cycle_rows};
 
 /// `figures/quality.svg` and the figures of gait cycles, in which the reasons of a verdict are marked. Pelvis and hips
 /// have the given angles, otherwise the coordinates of the model.
@@ -22,10 +23,10 @@ pub fn figure_files(
     reasons: &[Reason],
     angles: Option<&ClinicalAngles>,
 ) -> Result<Vec<OutputFile<'static>>, FigureError> {
-    Drawn { model, analysis, reasons, angles, not_measured: &[] }.files()
+    Drawn { model, analysis, reasons, angles, not_measured: &[], knees: BySide::default() }.files()
 }
 
-/// What the figures of a run show.
+/// Content of the figures of a run.
 struct Drawn<'a> {
     model: &'a Model,
     analysis: &'a Analysis,
@@ -33,17 +34,39 @@ struct Drawn<'a> {
     angles: Option<&'a ClinicalAngles>,
     /// Coordinates whose curves are no results.
     not_measured: &'a [CoordinateId],
+    /// Varus and internal rotation of knees from the markers of their segments [rad].
+    knees: BySide<Option<[Vec<f64>; 2]>>,
 }
 
 impl Drawn<'_> {
     /// Whether a curve of a cycle is measured.
     fn is_measured(&self, row: &CycleRow) -> bool {
         let anatomy = self.model.anatomy();
+        let of_joint = JOINT_MOMENTS.iter().find(|(name, _)| *name == row.quantity).map(|(_, movement)| *movement);
+        let of_knee = KNEE_ANGLES.contains(&row.quantity.as_str()).then_some(Movement::KneeAdduction);
+        if of_joint.or(of_knee).is_some_and(|movement| anatomy.is_any_above(self.not_measured, movement, row.side)) {
+            return false;
+        }
         !self.not_measured.iter().any(|id| {
             let is_of_side = anatomy.coordinate_side(*id).is_none_or(|side| side == row.side);
             let ending = row.quantity.strip_prefix(&self.model.coordinate_stem(*id));
             is_of_side && ending.is_some_and(|ending| ["_angle", "_moment", "_power"].contains(&ending))
         })
+    }
+
+    /// The angles of the knee of a cycle's leg, where no marker was lost.
+    fn knee_rows(&self, cycle: &Cycle) -> Vec<CycleRow> {
+        let grid = self.analysis.trajectory.grid();
+        let row = |(name, angles): (&str, &Vec<f64>)| CycleRow {
+            quantity: name.to_owned(),
+            side: cycle.side,
+            cycle: cycle.number,
+            unit: "deg",
+            values: over_cycle(grid, angles, cycle).into_iter().map(f64::to_degrees).collect(),
+            foot_off_percent: cycle.foot_off_s.map(|t| 100.0 * (t - cycle.start_s) / (cycle.end_s - cycle.start_s)),
+        };
+        let rows = self.knees[cycle.side].iter().flat_map(|knee| KNEE_ANGLES.into_iter().zip(knee)).map(row);
+        rows.filter(|row| row.values.iter().all(|value| value.is_finite())).collect()
     }
 
     fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
@@ -55,6 +78,7 @@ impl Drawn<'_> {
         }
         let names = ClinicalNames::of_model(model);
         let mut rows = cycle_rows(model, analysis);
+        rows.extend(analysis.cycles.iter().flat_map(|cycle| self.knee_rows(cycle)));
         rows.retain(|row| self.is_measured(row));
         if let Some(angles) = angles {
             replace_angles(&mut rows, angles, &names, analysis);
@@ -83,7 +107,7 @@ fn replace_angles(rows: &mut [CycleRow], angles: &ClinicalAngles, names: &Clinic
             let own = |cycle: &&Cycle| (cycle.side, cycle.number) == (row.side, row.cycle);
             let Some(cycle) = analysis.cycles.iter().find(own) else { continue };
             let Some(degrees) = clinical_angle(angles, quantity.id, row.side) else { continue };
-            // The factor is +1 or -1, so it also converts displayed numbers back to those of the file.
+            // The factor is +1 or -1, so it also converts displayed numbers back to the numbers of the file.
             let factor = quantity.factor(analysis.mass.kg, row.side);
             row.values = over_cycle(grid, &degrees, cycle).iter().map(|x| factor * x).collect();
         }
@@ -102,6 +126,7 @@ pub fn outcome_figures(outcome: &Outcome, chosen: Convention) -> Result<Vec<Outp
         reasons: &outcome.verdict.reasons,
         angles: angles.as_ref(),
         not_measured: &outcome.not_measured,
+        knees: outcome.knee_angles(),
     };
     let mut files = drawn.files()?;
     if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {

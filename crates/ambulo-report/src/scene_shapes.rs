@@ -67,7 +67,7 @@ pub(super) struct ObstacleShapes {
 pub(super) struct GroundPlane {
     /// A point of the plane [m].
     pub(super) point: [f64; 3],
-    /// Its normal, out of the ground.
+    /// Unit normal of the plane, out of the ground.
     pub(super) normal: [f64; 3],
 }
 

@@ -69,9 +69,9 @@ pub(crate) struct Font {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Widths {
-    /// Of one column of a journal.
+    /// Width of one column of a journal.
     pub one_column: f64,
-    /// Of two columns.
+    /// Width of two columns.
     pub two_columns: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Walks of a sweep over speeds, bodies and ground: tables, envelopes and a page.
 //!
 //! `sweep.csv` has one row per walk, side and percent of the gait cycle; `walks.csv` has one row per walk, with the
-//! extremes of its curves. Quantities, signs and units are those of `clinical.csv` (docs/OUTPUTS.md), and angular
+//! extremes of its curves. Quantities, signs and units are as in `clinical.csv` (docs/OUTPUTS.md), and angular
 //! velocities [deg/s].
 
 use super::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
@@ -51,9 +51,9 @@ impl SweptConditions {
 /// One walk of a sweep.
 #[derive(Debug, Clone)]
 pub struct SweptWalk {
-    /// Its conditions.
+    /// Conditions of the walk.
     pub conditions: SweptConditions,
-    /// Its curves, or why no walk was found.
+    /// Curves of the walk, or why no walk was found.
     pub found: Result<WalkCurves, String>,
 }
 
@@ -176,7 +176,7 @@ fn velocity_of(outcome: &Outcome, quantity: &ClinicalQuantity, side: Side) -> Op
     Some(SweptCurve { id, group: Kind::Velocity, ..curve })
 }
 
-/// The power of a movement that has no panel of its own for it [W/kg].
+/// The power of a movement without a power panel [W/kg].
 fn power_of(
     rows: &[CycleRow],
     quantity: &ClinicalQuantity,
@@ -331,7 +331,7 @@ impl<'a> Sweep<'a> {
         self.found().flat_map(|(.., found)| &found.curves).find(|curve| curve.id == id)
     }
 
-    /// The envelope of all walks, and the mean of those that have the same value of the coloured condition.
+    /// The envelope of all walks, and the mean of walks with the same value of the coloured condition.
     fn panel(&self, id: &str, movement: &str) -> Option<ChartPanel> {
         let example = self.example(id)?;
         let mut groups: BTreeMap<String, (f64, Vec<&[f64]>)> = BTreeMap::new();

@@ -27,11 +27,11 @@ const SIZE: (f64, f64) = (260.0, 90.0);
 pub struct ListedTrial {
     /// Path of the recording.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The standing trial.
     pub standing: Option<String>,
-    /// Whether it is a trial of a `.b3d`, which has a model and forces of its own.
+    /// Whether it is a trial of a `.b3d`, which contains a model and forces.
     pub is_subject: bool,
     /// The model; `None` for the built-in body, or the one of the file.
     pub model: Option<String>,

@@ -24,6 +24,10 @@ const PANELS: [(&str, &str); 6] = [
     ("ground_force_vertical", "ground_force_vertical"),
 ];
 
+/// Moments that no coordinate of a body has whose knee only flexes: columns and panels have the same names.
+const OTHER_PLANES: [&str; 4] =
+    ["knee_adduction_moment", "knee_rotation_moment", "ankle_inversion_moment", "ankle_rotation_moment"];
+
 fn outcome(folder: &Path, [model, motion, forces, loads]: [&str; 4]) -> (Outcome, Findings) {
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
     let mut findings = Findings::default();
@@ -143,6 +147,7 @@ fn the_clinical_convention_tilts_the_pelvis_and_flexes_the_hips_by_the_same() {
     let walk = outcome(&data.join("opensim-gait2392-subject01"), names);
     let [own, clinic] = [Convention::Opensim, Convention::Clinical].map(|convention| files(&walk, convention));
     assert_drawn(&clinic, &PANELS);
+    assert_drawn(&clinic, &OTHER_PLANES.map(|name| (name, name)));
     let (shown, own_shown) = (Shown::of(&clinic), Shown::of(&own));
     assert!(shown.header("Pelvis and hip angles").starts_with("clinical"));
     let offset = |column: &str| {
@@ -188,6 +193,48 @@ fn a_coordinate_that_is_not_measured_is_in_no_clinical_curve_and_in_no_figure() 
     outcome.not_measured = vec![outcome.body.coordinate("ankle_angle_r").unwrap()];
     let left = columns(&outcome);
     let lost: Vec<_> = all.iter().filter(|name| !left.contains(name)).map(String::as_str).collect();
-    assert_eq!(lost, ["ankle_dorsiflexion_r", "ankle_dorsiflexion_moment_r", "ankle_dorsiflexion_power_r"]);
+    // The moments of the other planes have axes that turn with the foot.
+    let expected = [
+        "ankle_dorsiflexion_r",
+        "ankle_dorsiflexion_moment_r",
+        "ankle_inversion_moment_r",
+        "ankle_rotation_moment_r",
+        "ankle_dorsiflexion_power_r",
+    ];
+    assert_eq!(lost, expected);
     assert!(curves(&outcome) < drawn, "{drawn}");
+}
+
+/// The peaks of the summary are those of the curve, up to the interpolation between frames of 60 Hz.
+#[test]
+fn the_peaks_of_the_knee_adduction_moment_are_those_of_its_curve() {
+    let Some(data) = shared_data::data() else { return };
+    let names =
+        ["subject01_simbody.osim", "subject01_walk1_ik.mot", "subject01_walk1_grf.mot", "subject01_walk1_grf.xml"];
+    let walk = outcome(&data.join("opensim-gait2392-subject01"), names);
+    let files = files(&walk, Convention::Clinical);
+    let table = clinical(&files);
+    let times = table.column("time").unwrap();
+    let stances = walk.0.knee_adduction();
+    for (side, found) in stances.iter() {
+        let whole = walk.0.stances.iter().filter(|stance| stance.side == side);
+        let whole: Vec<_> = whole.filter(|s| s.start_s > times[1] && s.end_s < times[times.len() - 2]).collect();
+        assert_eq!(found.len(), whole.len(), "{side}");
+        let curve = table.column(&format!("knee_adduction_moment_{}", side.letter())).unwrap();
+        for ([first, second, impulse], stance) in found.iter().zip(whole) {
+            let middle = 0.5 * (stance.start_s + stance.end_s);
+            let largest = |from: f64, to: f64| {
+                let inside = times.iter().zip(curve).filter(|(t, _)| (from..=to).contains(*t));
+                inside.map(|(_, moment)| *moment).fold(f64::NEG_INFINITY, f64::max)
+            };
+            println!("{side}: peaks {first:.3} {second:.3} N.m/kg, impulse {impulse:.3} N.m.s/kg");
+            assert!((first - largest(stance.start_s, middle)).abs() < 0.02, "{side}: first peak");
+            assert!((second - largest(middle, stance.end_s)).abs() < 0.02, "{side}: second peak");
+            let duration_s = stance.end_s - stance.start_s;
+            assert!(*impulse > 0.0 && *impulse < first.max(*second) * duration_s, "{side}: impulse");
+        }
+    }
+    assert!(stances.values().any(|found| !found.is_empty()));
+    let shown = Shown::of(&files);
+    assert!(shown.panel("knee_adduction_moment")["band"]["mean"].is_object(), "Schwartz 2008 has this moment");
 }

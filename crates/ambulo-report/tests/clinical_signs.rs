@@ -7,8 +7,10 @@ use ambulo_report::internals::{ClinicalGroup, ClinicalNames, ClinicalQuantity, c
 use std::collections::BTreeSet;
 
 const LAW: &str = include_str!("../../../docs/CONVENTIONS.md");
-/// Coordinates that the table of movements lacks: the built-in planar figure has none of them.
-const ELSEWHERE: [&str; 3] = ["knee_adduction", "knee_rotation", "subtalar_angle"];
+/// Coordinates that the table of movements lacks: the built-in planar figure has none of them. Moments of the ankle's
+/// reaction have no coordinate.
+const ELSEWHERE: [&str; 5] =
+    ["knee_adduction", "knee_rotation", "subtalar_angle", "ankle_inversion_moment", "ankle_rotation_moment"];
 /// Body mass [kg] of the rows, for factors of moments and powers.
 const MASS_KG: f64 = 50.0;
 

@@ -11,12 +11,15 @@ const CURVES: &str = include_str!("../data/normative/schwartz2008_curves.csv");
 const SPEEDS: [f64; 5] = [0.172, 0.290, 0.429, 0.560, 0.694];
 const FREE: f64 = 0.429;
 /// Quantities that were measured from another zero or by another method, or that the source lacks.
-const BANDLESS: [&str; 7] = [
+const BANDLESS: [&str; 10] = [
     "subtalar_angle",
     "trunk_lean_angle",
     "trunk_obliquity_angle",
     "trunk_rotation_angle",
     "hip_rotation_moment",
+    "knee_rotation_moment",
+    "ankle_inversion_moment",
+    "ankle_rotation_moment",
     "ground_force_lateral",
     "none",
 ];

@@ -3,6 +3,7 @@
 use crate::sound::{EXPECTED, is_sound};
 use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle_of};
 use ambulo::ground::BodyForces;
+use ambulo::model::anatomy::Movement;
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
@@ -26,8 +27,19 @@ pub struct CycleRow {
     pub foot_off_percent: Option<f64>,
 }
 
-/// Angle, moment and power of every coordinate, and the ground forces, over every cycle. Coordinates of a leg are cut
-/// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
+/// Moments of the legs that no coordinate of the model may have, with the movement that they drive. The axis of an
+/// ankle's inversion seldom belongs to a coordinate, so these moments of the ankle are in all tables.
+pub const JOINT_MOMENTS: [(&str, Movement); 5] = [
+    ("hip_rotation_moment", Movement::HipRotation),
+    ("knee_adduction_moment", Movement::KneeAdduction),
+    ("knee_rotation_moment", Movement::KneeRotation),
+    ("ankle_inversion_moment", Movement::SubtalarInversion),
+    ("ankle_rotation_moment", Movement::FootRotation),
+];
+
+/// Angle, moment and power of every coordinate, the moments of the legs in the other planes, and the ground forces,
+/// over every cycle. Coordinates of a leg are cut into the cycles of that leg; coordinates of pelvis and trunk into the
+/// cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
     analysis.cycles.iter().flat_map(|cycle| rows_of(model, analysis, cycle)).collect()
@@ -38,8 +50,24 @@ pub(crate) fn rows_of(model: &Model, analysis: &Analysis, cycle: &Cycle) -> Vec<
     let grid = analysis.trajectory.grid();
     let mut rows: Vec<CycleRow> =
         model.coordinate_ids().flat_map(|id| coordinate_rows(model, analysis, cycle, id)).collect();
+    let more = joint_moment_rows(model, analysis, cycle, &rows);
+    rows.extend(more);
     rows.extend(ground_rows(model, analysis, cycle, grid));
     rows
+}
+
+/// Moments of the leg that no coordinate has, from the reactions in its joints.
+fn joint_moment_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, known: &[CycleRow]) -> Vec<CycleRow> {
+    let (grid, moments) = (analysis.trajectory.grid(), analysis.joint_moments(model));
+    let found = |(name, movement): (&str, Movement)| {
+        let is_of_coordinate = known.iter().any(|row| row.quantity == name)
+            || movement < Movement::AnkleDorsiflexion
+                && model.anatomy().coordinate(movement, Some(cycle.side)).is_some();
+        moments.at(movement, cycle.side, 0).filter(|_| !is_of_coordinate)?;
+        let at = |frame: usize| moments.at(movement, cycle.side, frame).unwrap_or(f64::NAN);
+        Some(row(name.to_owned(), "N.m", cycle, grid, at))
+    };
+    JOINT_MOMENTS.into_iter().filter_map(found).collect()
 }
 
 /// A curve of the cycle; `value` is the quantity at a frame.

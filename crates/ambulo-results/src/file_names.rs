@@ -4,7 +4,7 @@
 pub const KINEMATICS: &str = "kinematics.mot";
 /// Generalised forces.
 pub const MOMENTS: &str = "moments.sto";
-/// Generalised forces without those of a worn device.
+/// Generalised forces without the forces of a worn device.
 pub const MOMENTS_BIOLOGICAL: &str = "moments_biological.sto";
 /// Powers.
 pub const POWERS: &str = "powers.sto";

@@ -36,8 +36,7 @@ enum Content<'a> {
     Borrowed(&'a Content<'a>),
 }
 
-/// Makes a table. Other than the type of a closure, this allows a file to be used where one with a shorter life is
-/// asked for.
+/// Makes a table. Unlike the type of a closure, this trait allows a file where one with a shorter life is required.
 trait MakeTable {
     fn make(&self) -> Result<TableRows<'_>, Error>;
 }
@@ -207,7 +206,7 @@ impl<'a> OutputFile<'a> {
         Ok(bytes)
     }
 
-    /// The table that the file is made from, if it is one.
+    /// The table in the file; `None` if the file is no table.
     pub fn table(&self) -> Option<Result<Table, Error>> {
         match self.content() {
             Content::Table { make, .. } => Some(make.make().map(|rows| rows.table())),

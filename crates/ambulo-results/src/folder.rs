@@ -245,14 +245,14 @@ impl<'a> Folder<'a> {
         ResultsError::Unreadable { folder: self.name.clone(), file: file.to_owned(), reason }
     }
 
-    /// The same, with the message of an error and all its causes.
+    /// The error of a file whose content is not as expected, with the message of `error` and all its causes.
     #[must_use]
     pub fn refused(&self, file: &str, error: &(dyn Error + 'static)) -> ResultsError {
         self.unreadable(file, error_chain(error))
     }
 }
 
-/// The message of an error followed by those of its causes.
+/// The message of an error, followed by the messages of its causes.
 #[must_use]
 pub fn error_chain(error: &(dyn Error + 'static)) -> String {
     let mut text = error.to_string();

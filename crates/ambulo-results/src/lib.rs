@@ -28,7 +28,7 @@ mod walking_summary;
 pub use ambulo::study::ForceOrigin as GroundSource;
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize};
 pub use convention::{Convention, ConventionSummary};
-pub use cycle_table::{CycleRow, cycle_rows};
+pub use cycle_table::{CycleRow, JOINT_MOMENTS, cycle_rows};
 pub use file_names::{
     BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND,
     GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS,
@@ -51,8 +51,8 @@ pub use sound::{EXPECTED, is_sound};
 pub use state_table::states_csv;
 pub use stream_columns::{columns_of_predictions, stream_columns, stream_row};
 pub use subject_summary::{
-    EventAgreementSummary, EventOrigin, MarkerErrorSummary, MarkersSummary, PlateContactSummary, PlateCornersSummary,
-    SegmentSummary, SubjectSummary,
+    EventAgreementSummary, EventOrigin, HipsSummary, KneeSummary, MarkerErrorSummary, MarkersSummary,
+    PlateContactSummary, PlateCornersSummary, RegionSummary, SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, MeasuredShare, PeakSummary,
@@ -63,7 +63,7 @@ pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
 pub use walk_summary::{PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
-pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary};
+pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary, knee_adduction_summary};
 
 /// For the tests of this crate.
 #[doc(hidden)]

@@ -9,7 +9,7 @@ use ambulo::study::{Outcome, PredictedGround};
 use ambulo_formats::Error;
 use std::sync::Arc;
 
-/// The tables of a run that `keep` includes, also those of a prediction.
+/// The tables of a run that `keep` includes, prediction tables among them.
 ///
 /// # Errors
 /// Column names that a table cannot store, numbers that are not finite.

@@ -9,7 +9,7 @@ use ambulo::model::{Model, Side};
 use ambulo::spatial::Vec3;
 
 /// `grf_sd.mot` and, with force plates, `grf_measured.mot`, at the instants of `kinematics.mot`, as far as `keep`
-/// includes them. `analysis` is the one with the predicted forces, `measured` the one with those of the plates.
+/// includes them. `analysis` is the one with the predicted forces, `measured` the one with plate forces.
 #[must_use]
 pub(crate) fn prediction_files<'a>(
     model: &'a Model,

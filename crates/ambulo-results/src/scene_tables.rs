@@ -320,7 +320,7 @@ impl RowTable {
         self.text.push('\n');
     }
 
-    /// What is written so far.
+    /// The text written so far.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text

@@ -8,7 +8,7 @@ use ambulo::ground::BodyForces;
 use ambulo::ground::stream::{FootLoad, StreamFrame};
 use ambulo::model::{Model, Side};
 
-/// Names and units of the columns of a stream: those of `grf.mot`, `grf_sd.mot` and `moments.sto`, one after the other.
+/// Names and units of the columns of a stream: the columns of `grf.mot`, `grf_sd.mot` and `moments.sto`, in this order.
 #[must_use]
 pub fn stream_columns(model: &Model) -> Vec<(String, &'static str)> {
     let no_foot: [(Side, BodyForces); 0] = [];
@@ -35,7 +35,7 @@ pub fn columns_of_predictions(model: &Model) -> Vec<(&'static str, String, &'sta
     deviations.chain(measured).map(with_unit).collect()
 }
 
-/// The values of these columns in one frame; those of an unloaded foot are zero.
+/// The values of these columns in one frame; values of an unloaded foot are zero.
 #[must_use]
 pub fn stream_row(model: &Model, frame: &StreamFrame) -> Vec<f64> {
     let mut row = Vec::new();

@@ -6,7 +6,7 @@ use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::tracking_summary::TrackingSummary;
 use crate::walk_summary::WalkSummary;
-use crate::walking_summary::WalkingSummary;
+use crate::walking_summary::{QuantitySummary, WalkingSummary, knee_adduction_summary};
 use ambulo::analysis::activity::Activity;
 use ambulo::analysis::feasibility::Verdict;
 use ambulo::analysis::{Analysis, GroundAgreement, PredictionChecks, peak};
@@ -63,6 +63,11 @@ pub struct Summary {
     pub activity: Option<Activity>,
     /// Times and distances of the strides.
     pub times_and_distances: WalkingSummary,
+    /// External knee adduction moment over the whole stances of each leg: `first_peak` and `second_peak` (the largest
+    /// in the first and in the second half of stance) and `impulse` (the area of its positive part). Empty where it is
+    /// not known.
+    #[serde(default)]
+    pub knee_adduction_moment: Vec<QuantitySummary>,
     /// Source of the ground forces.
     pub ground: Ground,
     /// Residual force and moment at the root.
@@ -228,6 +233,19 @@ impl Ground {
         let rest = if self.source == GroundOrigin::Mixed { "predicted" } else { "unknown" };
         is_incomplete.then(|| format!("measured in {}; {rest} in the rest", legs.join(" and ")))
     }
+
+    /// In words, the leg none of whose stances was measured, while the other leg was measured; `None` if there is none.
+    #[must_use]
+    pub fn unmeasured_leg(&self) -> Option<String> {
+        let MeasuredShare { right, left } = self.measured_share.as_ref()?;
+        let side = match (right, left) {
+            (Some(right), Some(left)) if *right > 0.0 && *left <= 0.0 => Side::Left,
+            (Some(right), Some(left)) if *left > 0.0 && *right <= 0.0 => Side::Right,
+            _ => return None,
+        };
+        let rest = if self.source == GroundOrigin::Mixed { "rest on predicted forces" } else { "are unknown" };
+        Some(format!("no stance of the {side} leg was measured: its moments, powers and reactions {rest}"))
+    }
 }
 
 /// Of the time in which each leg was loaded, the share in which its load was measured; `null` for a leg that was never
@@ -337,6 +355,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         convention: None,
         activity: Some(outcome.activity),
         times_and_distances: WalkingSummary::of(&outcome.times_and_distances),
+        knee_adduction_moment: knee_adduction_summary(&outcome.knee_adduction()),
         residual: residual(model, analysis),
         peaks: peaks(model, outcome.complete()),
         findings: findings.as_slice().to_vec(),
@@ -370,10 +389,8 @@ fn measured_share(outcome: &Outcome) -> Option<MeasuredShare> {
 
 fn subject(tracking: &Tracking) -> SubjectSummary {
     match tracking {
-        Tracking::Markers(markers) => {
-            SubjectSummary::of_markers(&markers.body, &markers.listed_events, &markers.measured_events)
-        }
-        Tracking::Skeleton { statement, fit, .. } => SubjectSummary::of_skeleton(statement, fit),
+        Tracking::Markers(markers) => SubjectSummary::of_markers(markers),
+        Tracking::Skeleton { statement, fit, regions, .. } => SubjectSummary::of_skeleton(statement, fit, regions),
     }
 }
 

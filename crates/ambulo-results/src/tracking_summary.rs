@@ -18,6 +18,8 @@ pub struct TrackingSummary {
     pub rotations_rms_deg: f64,
     /// Largest change of each rotation by the name of its coordinate [deg].
     pub largest_change_deg: BTreeMap<String, f64>,
+    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [mm]; `null` without arms.
+    pub hands_mm: Option<f64>,
     /// Root mean square of the changes of the position of the root [mm].
     pub root_rms_mm: f64,
     /// Steps of the solver.
@@ -31,12 +33,13 @@ impl TrackingSummary {
     /// The summary of what tracking did.
     #[must_use]
     pub fn of(tracked: &TrackedGround) -> TrackingSummary {
-        let TrackedGround { residual, moved, turned, steps, predicted } = tracked;
+        let TrackedGround { residual, moved, turned, hands_m, steps, predicted } = tracked;
         TrackingSummary {
             residual_rms: residual.0,
             residual_peak: residual.1,
             rotations_rms_deg: moved[0].to_degrees(),
             largest_change_deg: turned.iter().map(|(name, rad)| (name.clone(), rad.to_degrees())).collect(),
+            hands_mm: hands_m.map(|m| 1e3 * m),
             root_rms_mm: 1e3 * moved[1],
             steps: *steps,
             predicted: predicted.clone(),

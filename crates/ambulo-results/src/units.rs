@@ -39,8 +39,8 @@ fn unit_of_coordinate(name: &str, model: &Model) -> &'static str {
     }
 }
 
-/// Force and moment have a letter for the kind before that of the axis: `_vx`, `_fx`, `_px`, `_mx`; the free moment is
-/// a torque.
+/// Force and moment have a letter for the kind before the letter of the axis: `_vx`, `_fx`, `_px`, `_mx`; the free
+/// moment is a torque.
 fn unit_of_load(column: &str) -> &'static str {
     let column = column.trim_end_matches("_sd");
     if column.starts_with("ground_torque") {

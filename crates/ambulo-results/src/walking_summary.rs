@@ -1,8 +1,9 @@
 //! Times and distances of walking: `times_and_distances` of `summary.json`, and `times_and_distances.csv`.
 
 use crate::files::{OutputFile, check_column};
-use ambulo::analysis::{StrideQuantity, StrideStatistics, TimesAndDistances};
-use ambulo::model::Side;
+use ambulo::analysis::{StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index};
+use ambulo::model::{BySide, Side};
+use ambulo::numerics::{mean, sample_deviation};
 use ambulo_formats::Error;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +31,7 @@ pub struct WalkingSummary {
 pub struct QuantitySummary {
     /// Name: `cadence`, `step_length`.
     pub quantity: String,
-    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`.
+    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`, `N.m/kg`, `N.m.s/kg`.
     pub unit: String,
     /// Strides of the right foot.
     pub right: Option<SpreadSummary>,
@@ -122,7 +123,38 @@ impl QuantitySummary {
     }
 }
 
+/// First peak, second peak and impulse of the external knee adduction moment over the stances of both legs
+/// ([`ambulo::study::Outcome::knee_adduction`]); empty without stances.
+#[must_use]
+pub fn knee_adduction_summary(stances: &BySide<Vec<[f64; 3]>>) -> Vec<QuantitySummary> {
+    let names = [("first_peak", "N.m/kg"), ("second_peak", "N.m/kg"), ("impulse", "N.m.s/kg")];
+    let quantity = |(k, (quantity, unit)): (usize, (&str, &str))| {
+        let of = |sides: &[Side]| {
+            let values: Vec<f64> = sides.iter().flat_map(|side| stances[*side].iter().map(|found| found[k])).collect();
+            SpreadSummary::of_values(&values)
+        };
+        let [right, left] = Side::BOTH.map(|side| of(&[side]));
+        let symmetry = right.zip(left).and_then(|(right, left)| symmetry_index(right.mean, left.mean));
+        QuantitySummary {
+            quantity: quantity.to_owned(),
+            unit: unit.to_owned(),
+            right,
+            left,
+            both: of(&Side::BOTH),
+            symmetry,
+        }
+    };
+    let quantities = names.into_iter().enumerate().map(quantity);
+    quantities.filter(|quantity| quantity.both.is_some()).collect()
+}
+
 impl SpreadSummary {
+    /// Of numbers, one for each stride; `None` without any.
+    fn of_values(values: &[f64]) -> Option<SpreadSummary> {
+        let (sd, strides) = (sample_deviation(values), values.len());
+        (strides > 0).then(|| SpreadSummary { mean: mean(values), sd, strides })
+    }
+
     fn of(spread: StrideStatistics, factor: f64) -> SpreadSummary {
         SpreadSummary {
             mean: factor * spread.mean,

@@ -5,12 +5,15 @@ use crate::shared_data::data;
 use ambulo::analysis::activity::{Activity, ActivityKind, activity};
 use ambulo::findings::{Code, Findings};
 use ambulo::ground::footfalls::footfalls;
+use ambulo::job::{FileError, Job};
 use ambulo::kinematics::Trajectory;
 use ambulo::model::BySide;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::motion::{Motion, TimeGrid};
 use ambulo::study::{self, Settings, Source};
 use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
 
 const STEP_S: f64 = 0.01;
 pub(crate) const GRAVITY: f64 = 9.80665;
@@ -240,6 +243,51 @@ fn steps_are_walking_or_stairs() {
     assert_kind(|t| stepping(t, 1.1, 0.62, [1.3, 0.0], 0.88), 4.0, ActivityKind::Walk);
     assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, 0.34], 0.8), 5.0, ActivityKind::StairsUp);
     assert_kind(|t| stepping(t, 1.4, 0.65, [0.6, -0.34], 0.8), 5.0, ActivityKind::StairsDown);
+}
+
+/// A leg that is held up for longer than it would swing freely is balanced on the other one.
+#[test]
+fn a_long_balance_on_one_leg_between_two_steps_is_no_walk() {
+    // One second in the air per swing: 0.45 of a period of 2.4 s.
+    let found = recognised(|t| stepping(t, 2.4, 0.55, [1.3, 0.0], 0.88), 7.0);
+    assert_eq!(found.kind, ActivityKind::Other, "{found:?}");
+}
+
+/// Each foot takes load once, as in a laboratory with two plates, but none of them moves.
+#[test]
+fn feet_that_only_lose_and_take_load_make_no_walk() {
+    // The pelvis sways forward and aside over feet that stand side by side, and each foot is lifted once.
+    let shifts = |t: f64| {
+        let lift = |at: f64| 0.06 * (1.0 - ((t - at) / 0.25).powi(2)).max(0.0).powi(3);
+        let forward = 0.6 * smooth((t - 0.3) / 2.4);
+        [[forward - 0.3, 0.84], [0.0, lift(1.0)], [0.0, lift(2.0)]]
+    };
+    let found = recognised(shifts, 3.0);
+    assert_ne!(found.kind, ActivityKind::Walk, "{found:?}");
+}
+
+/// A squat, a drop jump, a balance and a standing person of four laboratories.
+#[test]
+fn recordings_without_a_walk_have_their_own_words() {
+    let Some(folder) = data() else { return };
+    let kulleuven = ["kuleuven-walk-squat/markers_Squat2.trc", "kuleuven-walk-squat/grf_Squat2.mot"];
+    let opencap = ["opencap-adult-83kg/DJ2.trc", "opencap-adult-83kg/DJ2_forces.mot"];
+    let pose2sim = ["markerless-pose2sim/S00_P00_T01_BalancingTrial_0-100.trc", ""];
+    let biomechzoo = ["biomechzoo-HC032A/HC032A01.c3d", ""];
+    for ([recording, forces], mass_kg, expected) in [
+        (kulleuven, Some(64.6), ActivityKind::Squat),
+        (opencap, Some(83.0), ActivityKind::Jump),
+        (pose2sim, Some(70.0), ActivityKind::Other),
+        (biomechzoo, None, ActivityKind::Stand),
+    ] {
+        let mut job = Job::of(folder.join(recording));
+        job.forces.table = Some(forces).filter(|forces| !forces.is_empty()).map(|forces| folder.join(forces));
+        (job.size.mass_kg, job.size.height_m) = (mass_kg, mass_kg.map(|_| 1.75));
+        let mut findings = Findings::default();
+        let read = job.read(&mut |path: &Path| fs::read(path).map_err(FileError::from), &mut findings).unwrap();
+        let found = read.run(&mut findings).unwrap().activity;
+        assert_eq!(found.kind, expected, "{recording}: {found:?}");
+    }
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn record() -> impl Strategy<Value = C3d> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_recording_ends_in_a_result_or_an_error(record in record()) {

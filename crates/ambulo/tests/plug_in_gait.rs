@@ -59,9 +59,9 @@ const JOINTS: [Joint; 3] = [
 
 /// Correlation and RMS difference [N.m/kg].
 #[derive(Clone, Copy)]
-struct Agreement {
-    r: f64,
-    rms: f64,
+pub(crate) struct Agreement {
+    pub(crate) r: f64,
+    pub(crate) rms: f64,
 }
 
 impl Person {
@@ -101,7 +101,7 @@ impl Person {
     }
 }
 
-fn agreement(pairs: &[(f64, f64)]) -> Agreement {
+pub(crate) fn agreement(pairs: &[(f64, f64)]) -> Agreement {
     assert!(pairs.len() > 40, "only {} frames", pairs.len());
     let n = pairs.len() as f64;
     let (ma, mb) = (pairs.iter().map(|p| p.0).sum::<f64>() / n, pairs.iter().map(|p| p.1).sum::<f64>() / n);

@@ -77,6 +77,33 @@ fn a_leg_whose_plate_was_off_has_nearly_the_moments_that_the_plate_shows() {
 }
 
 #[test]
+fn a_leg_on_a_plate_without_load_is_doubtful_and_one_beside_the_plates_is_not() {
+    let Some(data) = data() else { return };
+    let (whole, findings) = run(PEOPLE[0].source(&data));
+    assert_eq!(whole.quality.state, QualityState::Good);
+    assert!(!findings.has(Code::StancesLegUnmeasured));
+    let StanceSource::Plates(plates) =
+        &whole.stances.iter().find(|own| own.source.is_measured() && own.side == Side::Left).unwrap().source
+    else {
+        panic!("a plate")
+    };
+    let (found, findings) = run(without_plates(PEOPLE[0].source(&data), plates));
+    assert_eq!(found.measured_share(Side::Left), Some(0.0));
+    assert!(findings.has(Code::StancesLegUnmeasured), "{:?}", findings.as_slice());
+    assert_eq!(found.quality.state, QualityState::Doubtful);
+    let reason = found.quality.reasons.iter().find(|reason| reason.measure == Measure::UnmeasuredLeg).unwrap();
+    assert!(reason.message.contains("left leg") && reason.message.contains("under the left foot"), "{reason:?}");
+    // A laboratory with one plate has the same measured forces, and none is lost.
+    let mut source = PEOPLE[0].source(&data);
+    let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+    plates.iter().for_each(|plate| drop(markers.trial.recording.plates.remove(*plate)));
+    markers.trial.stated_plates = markers.trial.recording.plates.len();
+    let (found, findings) = run(source);
+    assert_eq!((found.measured_share(Side::Left), found.quality.state), (Some(0.0), QualityState::Good));
+    assert!(findings.has(Code::StancesPredicted) && !findings.has(Code::StancesLegUnmeasured));
+}
+
+#[test]
 fn a_measured_leg_keeps_its_numbers_and_quality_and_verdict_stay_those_of_the_plates() {
     let Some(data) = data() else { return };
     let (found, findings) = run(PEOPLE[0].source(&data));
@@ -124,6 +151,7 @@ fn an_activity_without_validated_prediction_has_unknown_loads() {
     assert!(found.analysis.residual.is_none(), "no frame is complete");
     assert!(found.quality.state > QualityState::Good);
     assert!(found.quality.reasons.iter().any(|reason| reason.measure == Measure::UncheckedForces));
+    assert!(findings.has(Code::StancesLegUnmeasured), "the load `1_...` of the table is zero");
 }
 
 /// A squat on two plates, with the columns that are kept; the others are zero.

@@ -6,6 +6,7 @@
 //! installed is skipped with a message; where `CI` is set, that is a failure.
 
 mod children;
+mod compiler;
 mod lanes;
 mod measurements;
 mod programs;
@@ -21,6 +22,8 @@ use steps::{LANES, LONG, Step, TEST_PROGRAMS, TESTS};
 
 /// Tests in the list at the end.
 const SLOWEST: usize = 10;
+
+pub(crate) use compiler::in_place_of_compiler;
 
 /// Runs the steps. The error names the step that failed and what to do.
 pub(crate) fn run(words: &[String]) -> Result<(), String> {

@@ -1,5 +1,6 @@
 //! The steps of `cargo xtask check`, and the lanes in which they run side by side.
 
+use super::compiler;
 use crate::python::interpreter;
 use crate::{web, workspace};
 use std::env::consts::EXE_SUFFIX;
@@ -319,6 +320,9 @@ impl Step {
             }
         }
         command.envs(self.variables.iter().copied());
+        if let (TEST_PROGRAMS, Ok(this)) = (self.name, std::env::current_exe()) {
+            command.env("RUSTC_WRAPPER", this).env(compiler::VARIABLE, "1");
+        }
         command
     }
 

@@ -27,7 +27,7 @@ pub fn candidate_pairs(
     for (i, bounds) in boxes.iter().enumerate() {
         match bounds {
             Some((low, high)) => sorted.push((i, *low, *high)),
-            // Two shapes without a box meet here twice; only the second time pairs them.
+            // A pair of shapes without boxes is visited twice; only the second visit adds the pair.
             None => {
                 (0..boxes.len()).filter(|j| *j < i || boxes[*j].is_some()).filter(|j| *j != i).for_each(|j| push(i, j))
             }

@@ -4,7 +4,8 @@
 //!   k = E^(2/3) / 2
 //!   F_h = 4/3 k √(R k) (d² + ε)^(3/4)
 //!   F_n = F_h (1 + 3/2 c d') · (tanh(b_v (d' + 1/(3/2 c))) + 1)/2 · (tanh(b_d d) + 1)/2
-//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip, or, without the corner at v_t,
+//!   F_t = F_n [ min(v/v_t, 1) (μ_d + 2 (μ_s - μ_d)/(1 + (v/v_t)²)) + μ_v v ]        against the slip;
+//!   without the corner at v_t:
 //!   F_t = F_n [ μ_d v/√(v² + v_t²) + μ_v v ]
 //!
 //! | code                  | symbol | unit   | meaning                                                           |
@@ -60,14 +61,14 @@ pub struct HuntCrossley {
     pub rate_slope: f64,
     /// Dry friction against slip speed.
     pub friction_curve: FrictionCurve,
-    /// Where the force begins.
+    /// Distance at which the force begins.
     pub onset: Onset,
 }
 
-/// Where the force of a contact begins.
+/// Distance at which the force of a contact begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Onset {
-    /// Where the surfaces meet; the force never pulls.
+    /// The force begins at contact of the surfaces and never pulls.
     #[default]
     AtTouch,
     /// As published: smoothly, before the surfaces meet, with a small pull while they part fast, and √(v² + ε) as slip

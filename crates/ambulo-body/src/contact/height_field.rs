@@ -2,13 +2,13 @@
 //!
 //! The ground is solid below the surface, which is made of triangles; it ends at the rim. Contacts:
 //!
-//! | shape               | with     | contact point                                                                    |
-//! |---------------------|----------|----------------------------------------------------------------------------------|
+//! | shape               | with     | contact point |
+//! |---------------------|----------|---|
 //! | sphere              | surface  | each local minimum of the distance; below the surface, the plane of the triangle |
-//! | corner of a solid   | triangle | of the triangle over which it lies, along the normal of the triangle             |
-//! | edge of a solid     | ridge    | where they cross, if the normal lies between the normals of both edges           |
-//! | face of a solid     | peak     | along the normal of the face, if no neighbour of the peak is higher along it     |
-//! | length of a capsule | both     | the same, less the radius; the ends are spheres                                  |
+//! | corner of a solid   | triangle | of the triangle over which it lies, along the normal of the triangle |
+//! | edge of a solid     | ridge    | where they cross, if the normal lies between the normals of both edges |
+//! | face of a solid     | peak     | along the normal of the face, if no neighbour of the peak is higher along it |
+//! | length of a capsule | both     | the same, less the radius; the ends are spheres |
 //!
 //! A ridge is an edge of the grid at which the surface bends down. Edges in flat ground and in valleys have no
 //! contacts, so that a body that slides over flat ground does not catch on them.

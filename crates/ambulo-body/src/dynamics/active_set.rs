@@ -101,8 +101,8 @@ pub(super) fn follow(graph: &ConstraintGraph, factored: &[Curvature], change: &[
     }
 }
 
-/// Whether the active set is that of the factored system: the same rows active, the others at the same bounds, and the
-/// same contacts sticking.
+/// Whether the active set equals the active set of the factored system: the same rows active, the others at the same
+/// bounds, and the same contacts sticking.
 pub(super) fn alike(graph: &ConstraintGraph, [now, then]: [&[Curvature]; 2], trial: &[f64], lambda: &[f64]) -> bool {
     let same_bound = |group: &ConstraintGroup, curvature: &Curvature| match curvature {
         Curvature::Contact { .. } => true,

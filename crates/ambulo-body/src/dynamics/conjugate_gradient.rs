@@ -10,7 +10,7 @@
 //!   α = rᵀ r / pᵀ (W + R) p        λ += α p        r' = r - α (W + R) p
 //!   β = max(0, r'ᵀ (r' - r) / rᵀ r)                p := r' + β p
 //!
-//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β is that of Polak and Ribière. Since f is
+//! W p is one tree solve for the wrenches Jᵀ p; no matrix is formed. β follows Polak and Ribière. Since f is
 //! quadratic, r'ᵀ r = 0 in exact arithmetic, so that β equals r'ᵀ r' / rᵀ r of Fletcher and Reeves, and both are the
 //! linear method of Hestenes and Stiefel. With rounding, β = 0 restarts when directions are no longer conjugate. All p
 //! are in the range of W, so that redundant rows get the forces nearest to the guess, or the least-squares forces
@@ -452,7 +452,7 @@ impl Rounds<'_, '_> {
         }
     }
 
-    /// Compliance of an active row; for a slipping contact that of the slip direction.
+    /// Compliance of an active row; for a slipping contact, the compliance along the slip direction.
     fn yields(&self, group: &ConstraintGroup, state: &Sought, row: usize) -> f64 {
         match state {
             Sought::Contact { friction: Friction::Slips { compliance, .. }, .. } if row > group.rows.start => {

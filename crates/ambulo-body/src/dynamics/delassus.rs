@@ -27,7 +27,7 @@ pub(super) struct Delassus {
 }
 
 impl Delassus {
-    /// Computes both; replaces the factors of the problem by those of the trees alone.
+    /// Computes `matrix` and `free`. Afterwards the factors of the problem belong to the trees without constraints.
     pub(super) fn fill(&mut self, problem: &mut Problem<'_>) {
         let graph = problem.graph;
         self.rows = graph.rows.len();

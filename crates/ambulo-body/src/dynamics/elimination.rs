@@ -29,8 +29,8 @@
 //! | `d`          | D      | kg.m² or kg      | f x f per joint              |
 //!
 //! Source: Baraff 1996, "Linear-time dynamics using Lagrange multipliers" (unverified page), as the paper of 1997 cites
-//! it in section 3.1; the recursion over f free directions instead of 6 - f constrained ones is that of articulated
-//! bodies, derived above.
+//! it in section 3.1; the recursion over f free directions instead of 6 - f constrained ones is the articulated-body
+//! recursion, derived above.
 //! Cost: linear in bodies on forests.
 //! Pinned by: tests/elimination.rs
 

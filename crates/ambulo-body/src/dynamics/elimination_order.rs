@@ -66,7 +66,7 @@ pub enum LinkError {
 /// Geometry of all joints at one instant.
 #[derive(Debug, Clone, Default)]
 pub struct LinkTerms {
-    /// From the parent's mass centre to the body's [m]; one per body, unused on ground.
+    /// Vector from the parent's mass centre to the body's [m]; one per body, unused on ground.
     pub arm: Vec<Vec3>,
     /// Free directions at the body's mass centre, world axes; one per coordinate.
     pub directions: Vec<Six>,

@@ -208,8 +208,8 @@ pub fn inverse(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[Load
     collect(workspace, trajectory, loads, |_| true)
 }
 
-/// As [`inverse`], but of the reactions only those of joints to ground, which are the residual. The other reactions
-/// take more than half of the memory of [`inverse`]; [`ReactionReader`] gives them.
+/// As [`inverse`], but returns only the reactions of joints to ground, which are the residual. The other reactions take
+/// more than half of the memory of [`inverse`]; [`ReactionReader`] gives them.
 #[must_use]
 pub fn inverse_with_residual(workspace: &mut Workspace, trajectory: &Trajectory, loads: &[LoadSeries]) -> Forces {
     collect(workspace, trajectory, loads, |segment| segment.parent == GROUND)
@@ -272,15 +272,30 @@ impl<'a> ReactionReader<'a> {
     #[inline]
     #[must_use]
     pub fn at(&self, body: BodyId, frame: usize) -> JointReaction {
+        self.solved(frame, |workspace, lane| workspace.many.reaction(body.index(), lane))
+    }
+
+    /// Pose, velocity and acceleration of a body.
+    ///
+    /// # Panics
+    /// If the trajectory has no such frame, or the model no such body.
+    #[inline]
+    #[must_use]
+    pub fn body_motion(&self, body: BodyId, frame: usize) -> BodyMotion {
+        self.solved(frame, |workspace, lane| workspace.many.scratch.body_motion(&workspace.plan, body, lane))
+    }
+
+    /// Reads the block of eight frames that a frame belongs to; `read` gets the workspace and the place in the block.
+    fn solved<T>(&self, frame: usize, read: impl FnOnce(&Workspace, usize) -> T) -> T {
         assert!(frame < self.trajectory.grid().frames, "frame {frame} of a shorter motion");
         let (workspace, solved) = &mut *self.block.borrow_mut();
         let first = frame - frame % SIDE_BY_SIDE;
         if *solved != Some(first) {
-            let Workspace { plan, arch, many: kernel, .. } = workspace;
+            let Workspace { plan, arch, many: kernel, .. } = &mut *workspace;
             kernel.solve_block(plan, *arch, self.trajectory, &self.loads, first);
             *solved = Some(first);
         }
-        workspace.many.reaction(body.index(), frame - first)
+        read(workspace, frame - first)
     }
 }
 
@@ -289,8 +304,8 @@ impl<'a> ReactionReader<'a> {
 /// axes.
 ///
 /// # Panics
-/// If the length of a slice of `posture` differs from the number of coordinates, or that of `wrenches` from the number
-/// of bodies.
+/// If the length of a slice of `posture` differs from the number of coordinates, or the length of `wrenches` from the
+/// number of bodies.
 pub fn project_wrenches<'w>(workspace: &'w mut Workspace, posture: Posture<'_>, wrenches: &[Wrench]) -> &'w [f64] {
     let Workspace { plan, one: kernel, .. } = workspace;
     assert_eq!(wrenches.len(), plan.segments.len(), "one wrench per body");

@@ -12,7 +12,7 @@
 //!
 //!   ∂τ_i/∂q̈_j = S_iᵀ I_jᶜ S_j                                    ∂τ_j/∂q̈_i = the same
 //!   ∂τ_i/∂q̇_j = 2 S_iᵀ (B_jᶜ S_j + I_jᶜ Ψ̇_j)                      ∂τ_j/∂q̇_i = 2 S_jᵀ (B_jᶜ S_i + I_jᶜ Ψ̇_i)
-//!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)         ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
+//!   ∂τ_i/∂q_j = S_iᵀ (2 B_jᶜ Ψ̇_j + I_jᶜ Ψ̈_j + S_j ×* f_jᶜ)    ∂τ_j/∂q_i = S_jᵀ (2 B_jᶜ Ψ̇_i + I_jᶜ Ψ̈_i)     (i ≠ j)
 //!
 //! With the momentum (n, p) of a body and its inertia (m, h = m c, J) at the origin, B depends on the angular part
 //! only: B (ω, u) = (T ω, ω × p) with T = ½ (ω_b × J - J ω_b × - v × h × - h × v × - n ×).
@@ -164,7 +164,7 @@ pub struct MovingLink {
 enum Follows {
     /// With a constant slope.
     Line(f64),
-    /// By a curve, after that of a coupler if the axis belongs to a coupled coordinate.
+    /// By a curve; if the axis belongs to a coupled coordinate, by the coupler first.
     Curve { coupler: Option<Function>, curve: Function },
 }
 
@@ -198,7 +198,7 @@ struct Composite<const N: usize> {
     mass: f64,
     /// m c [kg.m].
     first_moment: V3<N>,
-    /// About the origin of the world [kg.m²].
+    /// Inertia about the origin of the world [kg.m²].
     inertia: M3<N>,
     /// T of the equations, and the linear momentum p.
     coriolis: M3<N>,
@@ -242,7 +242,7 @@ impl<const N: usize> DerivativeKernel<N> {
         DerivativeKernel::with(model, false)
     }
 
-    /// Coupled coordinates follow their leaders: forces and derivatives are those of the leaders. The values, rates and
+    /// Coupled coordinates follow their leaders: forces and derivatives belong to the leaders. The values, rates and
     /// accelerations in `scratch` must obey the couplers.
     pub fn with_couplers(model: &Model) -> Result<DerivativeKernel<N>, CurvedJointError> {
         DerivativeKernel::with(model, true)
@@ -432,7 +432,7 @@ impl MovingLink {
     }
 }
 
-/// The moving axes of a model, carriers first, and the last one that moves each body.
+/// The moving axes of a model, parents first, and the last axis that moves each body.
 fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, Vec<Option<usize>>), CurvedJointError> {
     let (mut links, mut link_of_body): (Vec<MovingLink>, Vec<Option<usize>>) = (Vec::new(), Vec::new());
     for (index, (segment, body)) in plan.segments.iter().zip(model.bodies()).enumerate() {
@@ -462,7 +462,7 @@ fn links(model: &Model, plan: &Plan, coupled: bool) -> Result<(Vec<MovingLink>, 
 }
 
 impl Follows {
-    /// The same displacement, of a coordinate that follows a coupler.
+    /// This displacement as the displacement of a coordinate that follows a coupler.
     fn after(self, coupler: &Function) -> Follows {
         let curve = match self {
             Follows::Line(slope) => Function::Linear { slope, intercept: 0.0 },

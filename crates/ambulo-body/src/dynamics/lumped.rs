@@ -4,7 +4,7 @@
 //! freedom and all bodies attached to it in this way are one body for the solver. With C their common mass centre,
 //!
 //!   a_c = X_c a_C + W_c          W_c = X W_p + w_c          W = 0 for the first of them
-//!   A_C = Σ X_cᵀ A_c X_c         b_C = Σ X_cᵀ (b_c - A_c W_c)          j_C = X_cᵀ j_c          target_C = target - j_c W_c
+//!   A_C = Σ X_cᵀ A_c X_c        b_C = Σ X_cᵀ (b_c - A_c W_c)        j_C = X_cᵀ j_c         target_C = target - j_c W_c
 //!
 //! which is again a rigid body with its inertia about its mass centre. A walking figure whose joints are all driven
 //! becomes one body with two free directions, whatever the number of its bodies, and a Newton step costs no more than
@@ -35,9 +35,9 @@ pub(super) struct LumpedGraph {
     of: Vec<usize>,
     /// The body with freedom in each lumped body.
     first: Vec<usize>,
-    /// From the mass centre of the first body to the common one [m].
+    /// Vector from the mass centre of the first body to the common one [m].
     center: Vec<Vec3>,
-    /// From the common mass centre to that of each body [m].
+    /// Vector from the common mass centre to the mass centre of each body [m].
     arm: Vec<Vec3>,
     beyond: Vec<Six>,
     shift: Vec<f64>,
@@ -50,7 +50,7 @@ fn is_first(link: &Link) -> bool {
 }
 
 impl LumpedGraph {
-    /// Makes the smaller graph; returns false if there is none. `outwards`: bodies, parents first.
+    /// Makes the smaller graph; returns false if no bodies can be lumped. `outwards`: bodies, parents first.
     pub(super) fn take(&mut self, full: &ConstraintGraph, outwards: &[(usize, Option<usize>)]) -> bool {
         if full.links.iter().all(is_first) {
             return false;

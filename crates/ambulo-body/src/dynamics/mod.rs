@@ -5,10 +5,11 @@
 //! [`residual_reduction`] changes a recorded motion so that it agrees with measured ground forces.
 //!
 //! Constraints have several solvers: [`Method::Newton`] tries `proximal`, then `nonsmooth_newton`, then `relaxed`;
-//! [`Method::ConjugateGradient`] is the solver of the 1997 paper. docs/METHODS.md says which method when.
+//! [`Method::ConjugateGradient`] is the solver of the 1997 paper. docs/METHODS.md compares them.
 
 mod inverse;
 mod inverse_derivatives;
+mod joint_moments;
 mod joint_powers;
 mod roots;
 
@@ -57,6 +58,7 @@ pub use inverse_derivatives::InverseDerivatives;
 pub use inverse_derivatives::{CurvedJointError, inverse_derivatives};
 #[doc(hidden)]
 pub use inverse_derivatives::{DerivativeKernel, Spatial};
+pub use joint_moments::JointMoments;
 pub use joint_powers::JointPowers;
 pub use problem::{Method, SolverSettings};
 #[doc(hidden)]

@@ -11,10 +11,9 @@
 //! factors and is halved until |F|² falls below the largest of the last few values; ∂F/∂λ contains the dependence of
 //! friction on the normal force, which the friction disc of `proximal` does not. Redundant rows make W singular, and
 //! steps along the forces that move nothing leave the cones; a share of its diagonal is therefore added to the
-//! derivative (not to F), more where a step fails, as in the method of Levenberg and Marquardt. Where no step
-//! lowers |F|², the best forces are changed at random, or set to zero, and sweeps over the rows one by one (Gauss and
-//! Seidel, with the same projections) lead to the next place to start from. The iterate with the smallest departure is
-//! returned.
+//! derivative (not to F), more where a step fails, as in the method of Levenberg and Marquardt. Where no step lowers
+//! |F|², the best forces are changed at random, or set to zero. Sweeps over the rows one by one (Gauss and Seidel, with
+//! the same projections) then lead to the next start. The iterate with the smallest departure is returned.
 //!
 //! Source: Alart and Curnier 1991 for F; Jourdan, Alart and Jean 1998 for the sweeps (unverified pages). Derivatives
 //! derived above. Cost: one factorisation of n rows per step, n³/3 products.
@@ -29,8 +28,8 @@ use super::within_law::confine;
 use crate::numerics::DenseLu;
 use crate::numerics::elementary::hypot;
 
-/// A step costs at least as much as so many products, however few rows there are: a solve of the trees, and trials of
-/// shorter steps. Factors of 40 rows cost as much.
+/// Least cost of a step in products, even with few rows: a solve of the trees, and trials of shorter steps. Factors of
+/// 40 rows cost as much.
 const LEAST_PRODUCTS: usize = 20_000;
 /// More rows are not attempted: the factors of 400 rows cost some 20 million products.
 pub(super) const MOST_ROWS: usize = 400;
@@ -39,7 +38,8 @@ const TURNS: usize = 200;
 const STEPS: usize = 40;
 /// ρ W of the turns, over and over: another ρ makes another |F|², which has its own places without descent.
 const SCALES: [f64; 8] = [1.0, 0.1, 10.0, 1.0, 0.01, 100.0, 1.0, 0.3];
-/// Every turn of this number starts after so many sweeps more from no forces: about as much work as its steps.
+/// Turns between restarts from zero forces, and the number of sweeps of a restart: about as much work as the steps of a
+/// turn.
 const FRESH: usize = 6;
 const FRESH_SWEEPS: usize = 2000;
 /// The others start at the best forces so far, each changed by up to this share, after a few sweeps. Few, since many
@@ -87,8 +87,8 @@ pub(super) struct NonsmoothWorkspace {
     pub(super) is_used_up: bool,
 }
 
-/// Improves motion and forces if it can, in about so many products; returns whether the laws hold. The factors of the
-/// problem are those of the trees afterwards.
+/// Improves motion and forces if it can, in about this number of products; returns whether the laws hold. Afterwards
+/// the factors of the problem belong to the trees without constraints.
 pub(super) fn solve(
     problem: &mut Problem<'_>,
     w: &mut NonsmoothWorkspace,
@@ -170,7 +170,7 @@ impl Nonsmooth<'_, '_> {
         let NonsmoothWorkspace { lambda, best, swept, .. } = &mut *self.w;
         // Nothing was kept if no residual was a number.
         let Some(kept) = best.lambda().filter(|_| !turn.is_multiple_of(FRESH)) else {
-            // Sweeps converge slowly but hardly ever fail: they go on where those of the last such turn ended.
+            // Sweeps converge slowly but rarely fail: they continue from the result of the last such turn.
             lambda.copy_from_slice(swept);
             self.sweep(FRESH_SWEEPS);
             self.w.swept.copy_from_slice(&self.w.lambda);
@@ -308,7 +308,7 @@ impl Nonsmooth<'_, '_> {
     }
 }
 
-/// Fixed numbers between 0 and 1: those of Weyl's sequence of √2, a new part of it for each turn.
+/// Fixed numbers between 0 and 1 from Weyl's sequence of √2, a new part of it for each turn.
 fn pseudo_random(turn: usize) -> impl Iterator<Item = f64> {
     (1..).map(move |k| ((k + 1009 * turn) as f64 * std::f64::consts::SQRT_2).fract())
 }
@@ -348,8 +348,7 @@ fn depart(group: &ConstraintGroup, rho: &[f64], lambda: &[f64], u: &[f64], left:
     }
 }
 
-/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside it is that of λ and of the
-/// bound.
+/// ∂F/∂λ of one group. Inside the bounds F = u, whose derivative is a row of W; outside them F = (λ - bound) / ρ.
 fn differentiate(
     group: &ConstraintGroup,
     rho: &[f64],

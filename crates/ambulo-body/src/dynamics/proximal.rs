@@ -35,7 +35,7 @@
 //! round. If forces are not unique and the least-squares forces would leave a cone, the guess is moved towards them as
 //! far as all cones allow. Slip directions that oscillate from step to step are damped; contacts that still do not
 //! converge are passed to [`super::nonsmooth_newton`], if that fails to [`super::relaxed`], and then to the first again
-//! with more patience.
+//! with more rounds.
 //!
 //! Source: proximal handling of constraints on articulated bodies as in Carpentier, Budhiraja, Mansard 2021, "Proximal
 //! and sparse resolution of constrained dynamic equations" (unverified page); friction disc of lagged radius after
@@ -234,7 +234,7 @@ impl Newton<'_, '_> {
             self.accept_nearest(motions, coordinates, lambda, convergence);
         }
         if self.rho > self.plain {
-            // Displacements are projected with the initial ρ: modes that hardly yield to it belong to stretched loops,
+            // Displacements are projected with the initial ρ: modes that yield little to it belong to stretched loops,
             // and would be moved far to correct little.
             self.rho = self.plain;
             self.guess(lambda);
@@ -480,7 +480,7 @@ impl Newton<'_, '_> {
     }
 
     /// Whether the residual is the same as a round before with the largest ρ: the rows contradict each other. If it
-    /// falls only slowly, ρ is raised; this is needed for modes whose mobility is far below that of single rows
+    /// falls only slowly, ρ is raised; this is needed for modes much less mobile than single rows
     /// (bending of a tall tower, with the fourth power of the number of levels).
     fn stuck(&mut self, residual: f64, last: &mut f64) -> bool {
         let slow = residual > SLOW * *last;

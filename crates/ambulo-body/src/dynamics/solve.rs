@@ -44,7 +44,7 @@ pub struct GraphWorkspace {
     conjugate: ConjugateWorkspace,
 }
 
-/// Solves the graph. On entry, `solution.lambda` is a guess of the forces, for example those of the last time step: it
+/// Solves the graph. On entry, `solution.lambda` is a guess of the forces, for example from the last time step: it
 /// determines which contacts are first treated as loaded and as slipping, and where conjugate gradient starts. The
 /// guess of a new contact is a positive normal force without friction.
 ///

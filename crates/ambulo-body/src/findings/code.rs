@@ -255,9 +255,9 @@ codes! {
         "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
     MarkersHeldInPlace "markers.held_in_place" Warning
-        "A marker stays exactly in place while the others move: a program filled a gap by holding its last position. \
-         These samples were treated as gaps."
-        "Fill the gaps of these markers by another method, or leave them open.";
+        "A marker, a sensor or a segment stays exactly in place while the others move: a program filled a gap by \
+         holding its last sample. These samples were treated as gaps."
+        "Fill these gaps by another method, or leave them open.";
     MarkersZeroIsGap "markers.zero_is_gap" Warning
         "Positions of exactly 0 0 0 were read as gaps."
         "Export gaps as missing values.";
@@ -297,6 +297,9 @@ codes! {
         "The fit of the body to the markers took too many steps at some times and was stopped; coordinates are \
          approximate there, or have no values."
         "Correct markers that jump or have wrong labels, or leave those times out.";
+    MarkersRefitted "markers.refitted" Note
+        "The body did not follow the markers at first; another start was used, or all frames were fitted together."
+        "Check the distances of the markers; correct markers that jump or have wrong labels.";
     MarkersSwap "markers.swap" Warning
         "Two markers had exchanged labels at some times and were exchanged back."
         "Correct the labels.";
@@ -317,8 +320,12 @@ codes! {
          value, or it lies on its limit in more than a tenth of the frames. Clinical tables and scores leave it out."
         "Record all markers of the segment in the motion and in the standing trial; at a limit, check for misplaced or \
          exchanged markers.";
-    MarkersArms "markers.arms" Note
-        "The markers of the arms are far from the body, while those of pelvis, legs and trunk fit."
+    MarkersTrunk "markers.trunk" Warning
+        "The markers of trunk and head are far from the body, while those of pelvis and legs fit: residuals and \
+         predicted ground forces are uncertain, moments of the legs from measured ground forces are not."
+        "Check the markers of the trunk: whether one moved after the standing trial or has another marker's label.";
+    MarkersArms "markers.arms" Warning
+        "The markers of the arms are far from the body, while those of pelvis and legs fit."
         "Nothing to do for the forces of the legs; for those of the arms check their markers in the standing trial.";
     MarkersSidesExchanged "markers.sides_exchanged" Warning
         "Left and right are exchanged in all labels of a recording, so that the person is mirrored; they were \
@@ -344,6 +351,21 @@ codes! {
     CalibrationNotStanding "calibration.not_standing" Warning
         "The person moves in most of the standing trial; all of its frames were used."
         "Use a trial in which the person stands still, or no standing trial.";
+    CalibrationMovement "calibration.movement" Note
+        "A movement of the person shows the centre of a hip or the axis of a knee, which the body has."
+        "Nothing to do.";
+    CalibrationMovementRefused "calibration.movement_refused" Warning
+        "The movement does not show the centre of a hip or the axis of a knee; that of the markers was used."
+        "Record a movement of the hips in two planes, of at least 20 degrees each, and of the knees, of at least 45 \
+         degrees, with two markers on each thigh and shank.";
+    CalibrationKneeAxis "calibration.knee_axis" Note
+        "The axis of a knee was chosen by the least cross-talk."
+        "Nothing to do.";
+    CalibrationCrossTalk "calibration.cross_talk" Warning
+        "Varus of a knee follows its flexion: the axis that its markers show is not that about which it bends."
+        "Check the markers of the epicondyles and the wand of the thigh, find the axis by a movement, or choose the \
+         axis \
+         with the least cross-talk.";
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."
         "Give the standing trial of this person, or correct the name of the subject in the files.";
@@ -588,6 +610,10 @@ codes! {
         "A loaded foot was not on a force plate, or only in part; moments, powers and reactions have predicted ground \
          forces there."
         "Nothing to do; `stances.csv` and the columns `ground_source` list these times.";
+    StancesLegUnmeasured "stances.leg_unmeasured" Warning
+        "A leg stood on force plates, but none of its stances was measured, while those of the other leg were: all its \
+         moments, powers and reactions rest on predicted forces."
+        "Do not use this leg as a measured one. Find out why its plate gave no load, or choose another trial.";
     StancesUnknown "stances.unknown" Warning
         "A loaded foot was not on a force plate, and its load cannot be predicted reliably."
         "Choose the time in which every loaded foot is on a plate; `stances.csv` lists the others.";
@@ -761,13 +787,14 @@ impl Code {
         self.entry().name
     }
 
-    /// The code of a name; `None` if there is none.
+    /// The code with this name; `None` if the name is unknown.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Code> {
         ENTRIES.iter().find(|entry| entry.name == name).map(|entry| entry.code)
     }
 
-    /// Whether it decides whose results these are, or which of them are results: shown before other warnings.
+    /// Whether the finding is shown before other warnings: it concerns the identity of the person, or which values are
+    /// results.
     #[must_use]
     pub fn comes_first(self) -> bool {
         matches!(

@@ -1,6 +1,6 @@
 //! Warnings and notes that computations collect for the user.
 //!
-//! A function that meets partial trouble reports it to the [`Findings`] that its caller passes in, and goes on. Every
+//! A function that can continue despite a problem reports it to the [`Findings`] that its caller passes in. Every
 //! kind of finding has a [`Code`] with a severity, a meaning and a remedy. Findings inform the user; no computation
 //! depends on them.
 
@@ -39,12 +39,12 @@ pub struct Finding {
     pub code: Code,
     /// Found value, place, and consequence.
     pub message: String,
-    /// How many times it occurred.
+    /// Number of times that it occurred.
     pub count: usize,
 }
 
 impl Finding {
-    /// How much it matters; every code has one severity.
+    /// Severity; every code has one.
     #[must_use]
     pub fn severity(&self) -> Severity {
         self.code.severity()
@@ -57,7 +57,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// A finding as it is written in files: with its severity, for readers that do not know the codes.
+/// A finding as written in files: with its severity, for programs that do not know the codes.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Record {
@@ -102,7 +102,7 @@ impl Findings {
         }
     }
 
-    /// Removes the findings with this code of which a later one knows the true reason.
+    /// Removes the findings with this code for which `is_wrong` is true, because a later finding has the true reason.
     pub fn withdraw(&mut self, code: Code, is_wrong: impl Fn(&str) -> bool) {
         self.list.retain(|finding| finding.code != code || !is_wrong(&finding.message));
     }

@@ -1,4 +1,4 @@
-//! The words of enums in files and tables are those that serde writes.
+//! The words of enums in files and tables, as serde writes them.
 
 use serde::ser::{Impossible, Serialize, Serializer};
 use std::fmt;

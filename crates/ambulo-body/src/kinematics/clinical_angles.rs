@@ -1,7 +1,8 @@
 //! Angles of pelvis and hips as clinics define them: of axes through the iliac spines.
 //!
 //! With A the axes of the body (forward, up, right) in the neutral posture, R_p(t) and R_t(t) the rotations of pelvis
-//! and thigh, R_t(0) that of the thigh in the neutral posture, and C the clinical axes in the pelvis ([`PelvicFrame`]):
+//! and thigh, R_t(0) the rotation of the thigh in the neutral posture, and C the clinical axes in the pelvis
+//! ([`PelvicFrame`]):
 //!
 //!   pelvis in the world      Aᵀ R_p(t) C
 //!   thigh in the pelvis      (R_p(t) C)ᵀ R_t(t) R_t(0)ᵀ A

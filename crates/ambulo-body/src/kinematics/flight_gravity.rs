@@ -105,7 +105,7 @@ fn flights(lowest: &[f64], clear: f64) -> Vec<Range<usize>> {
     found
 }
 
-/// Downward acceleration of a parabola through these heights; `None` if they lie on none.
+/// Downward acceleration of a parabola through these heights; `None` if no parabola fits.
 fn gravity_of(times: &[f64], heights: &[f64]) -> Option<f64> {
     let (first, last) = (times.first()?, times.last()?);
     let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));

@@ -4,12 +4,14 @@
 //! for that, a body of mean build is fitted, in the stature that fits best; where few names are known, such a body that
 //! stands is compared with the highest posture of the recording. For a marker p and a segment with poses T(t):
 //!
-//!   score = w · spread + distance        spread: standard deviation of T(t)⁻¹ p(t); distance: to the nearest landmark of the segment
+//!   score = w · spread + distance
+//!
+//! with the spread, the standard deviation of T(t)⁻¹ p(t), and the distance to the nearest landmark of the segment.
 //!
 //! The segment with the least score is proposed, and its landmark if that is near and no other marker is nearer to it.
 //! Otherwise the marker is a technical one.
 //!
-//! Not handled: markers that are not on the body; several people.
+//! Not handled: markers that are not on the body; several persons.
 //! Pinned by: tests/marker_proposal.rs
 
 use super::calibration::{BodyMeasurements, PersonMeasurements, Trial, calibrate};
@@ -52,7 +54,7 @@ const ANY_MASS_KG: f64 = 70.0;
 /// Proposals for the markers of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerProposals {
-    /// Every marker with a meaning: those that were recognised by name, and those that are proposed.
+    /// Markers with a meaning, recognised by name or proposed.
     pub markers: Vec<NamedMarker>,
     /// Names of the markers whose meaning is only proposed.
     pub proposed: Vec<String>,

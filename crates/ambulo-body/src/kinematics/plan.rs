@@ -36,9 +36,9 @@ pub(crate) struct PlannedBushing {
 pub(crate) struct PlannedEnd {
     /// State of the body: 0 is ground, i + 1 is body i.
     pub(crate) state: usize,
-    /// The axes of the frame in those of M.
+    /// Rotation from the axes of the frame to the axes of M.
     pub(crate) axes: Mat3,
-    /// From the mass centre to the origin of the frame, in M axes [m].
+    /// Vector from the mass centre to the origin of the frame, in M axes [m].
     pub(crate) from_center: Vec3,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct PlannedEnd {
 pub(crate) struct Segment {
     /// State of the parent: 0 is ground, i + 1 is body i.
     pub(crate) parent: usize,
-    /// From the parent's mass centre to F's origin, in the parent's M axes [m].
+    /// Vector from the parent's mass centre to F's origin, in the parent's M axes [m].
     pub(crate) to_joint: Vec3,
     /// F's axes in the parent's M axes, unless they are the same.
     pub(crate) offset: Option<Mat3>,
@@ -58,13 +58,13 @@ pub(crate) struct Segment {
     pub(crate) spherical: Option<Spherical>,
     /// Length of the arc at whose end the origin of M is [m].
     pub(crate) arc: Option<f64>,
-    /// From M's origin to the mass centre, in M axes [m].
+    /// Vector from M's origin to the mass centre, in M axes [m].
     pub(crate) to_center: Vec3,
     pub(crate) mass: f64,
-    /// About the mass centre in M axes [kg.m²].
+    /// Inertia about the mass centre in M axes [kg.m²].
     pub(crate) inertia: Mat3,
     pub(crate) diagonal: bool,
-    /// From M to the body's own frame.
+    /// Pose of the body's own frame in M.
     pub(crate) joint_from_body: Pose,
 }
 

@@ -29,7 +29,7 @@ pub struct Retargeted {
     pub markers: MarkerRecording,
     /// The motion, and the distances of the body from the skeleton.
     pub fit: MarkerFit,
-    /// How the person falls in flight; `None` without a flight.
+    /// Downward acceleration of the person in flight; `None` without a flight.
     pub flights: Option<FlightGravity>,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The skeleton is fitted again with the body of the result, as [`retarget`](super::retarget) did. With the pose of a
 //! segment W in the fit and W' in the result, the joint of the segment is turned by W' Wᵀ, and mid-hip is moved by the
-//! difference of its places. Because the points of a skeleton are never quite those of a body, the fit of the changed
+//! difference of its places. Because the points of a skeleton and of a body never agree exactly, the fit of the changed
 //! skeleton is not yet the motion of the result; fit and change are repeated as long as they converge. So filters,
 //! residual reduction and tracking change the skeleton, while what the body does not represent (a bent spine, a knee
 //! that bends sideways) stays as recorded.
@@ -26,12 +26,12 @@ use crate::spatial::{Mat3, Pose, Vec3};
 const UNSEEN: [&str; 2] = ["pro_sup_r", "pro_sup_l"];
 /// How often the skeleton is fitted and changed.
 const PASSES: usize = 4;
-/// Largest size of a change relative to that of the pass before, if the passes converge. Measured on a walk: 0.1.
+/// Largest size of a change relative to the change in the pass before, if the passes converge. Measured on a walk: 0.1.
 const CONVERGING: f64 = 0.5;
 /// Largest relative difference between the lengths of a segment in result and skeleton; the same skeleton has the same
 /// lengths up to rounding.
 const SAME_LENGTH: f64 = 0.01;
-/// Largest RMS distance between the points of the skeleton and those of the result [m]: about two thirds of the length
+/// Largest RMS distance between points of the skeleton and of the result [m]: about two thirds of the length
 /// of a foot. A changed motion stays near the recorded one, while another take soon is elsewhere.
 const SAME_TAKE_M: f64 = 0.2;
 /// Largest difference between the times of result and file, as a share of a frame.
@@ -60,9 +60,9 @@ pub enum RigError {
     OtherSkeleton {
         /// The segment.
         segment: String,
-        /// Its length in the skeleton [m].
+        /// Length of the segment in the skeleton [m].
         found_m: f64,
-        /// Its length in the result [m].
+        /// Length of the segment in the result [m].
         expected_m: f64,
     },
     /// Frames that the skeleton does not have.
@@ -149,9 +149,9 @@ fn changes(model: &Model, wanted: &[Vec<Pose>], fit: &Motion) -> Vec<PostureChan
 struct Steps(Vec<f64>);
 
 impl Steps {
-    /// The changes without those of segments that do not converge: about the axis of a straight arm a fit does not
-    /// follow the skeleton, which would be turned further in every pass. All frames are treated alike, because a motion
-    /// whose frames were changed by turns would tremble.
+    /// The changes except those of segments that do not converge: about the axis of a straight arm a fit does not
+    /// follow the skeleton, so each pass would turn the skeleton further. Frames are treated alike: if only some frames
+    /// were changed, the motion would tremble.
     fn converging(&mut self, mut changes: Vec<PostureChange>) -> Vec<PostureChange> {
         let away = |turn: &Mat3| (turn - Mat3::identity()).norm_squared();
         let squares = |change: &PostureChange| -> Vec<f64> {
@@ -248,7 +248,7 @@ pub fn segments(model: &Model) -> Vec<(Segment, Option<Side>)> {
     found
 }
 
-/// The poses of all bodies at these coordinates, but without the coordinates of which a skeleton shows nothing, so that
+/// The poses of all bodies at these coordinates, without coordinates that a skeleton does not show, so that
 /// the joints keep them.
 fn poses_shown(model: &Model, mut coordinates: Vec<f64>) -> Vec<Pose> {
     for (value, coordinate) in coordinates.iter_mut().zip(model.coordinates()) {
@@ -263,13 +263,13 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.coordinates().iter().map(|coordinate| coordinate.default_value).collect()
 }
 
-/// The coordinates of one frame; those that are not recorded have their default values.
+/// The coordinates of one frame; unrecorded coordinates have their default values.
 fn coordinates(model: &Model, motion: &Motion, frame: usize) -> Vec<f64> {
     let recorded = motion.columns.iter().map(|column| column.as_ref().map(|column| column[frame]));
     recorded.zip(defaults(model)).map(|(recorded, default)| recorded.unwrap_or(default)).collect()
 }
 
-/// Checks that the points of the recording are near those of the body.
+/// Checks that the points of the recording are near the points of the body.
 fn check_distance(model: &Model, poses: &[Vec<Pose>], markers: &MarkerRecording) -> Result<(), RigError> {
     let (mut squares, mut count) = (0.0, 0_usize);
     for marker in model.markers() {

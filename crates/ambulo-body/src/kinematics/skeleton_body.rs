@@ -1,6 +1,6 @@
 //! The built-in body with the segment lengths of recorded joint centres.
 //!
-//! In a segment scaled by f, the mass centre and the radii of gyration are scaled by f; masses are those of the table.
+//! In a segment scaled by f, the mass centre and the radii of gyration are scaled by f; masses come from the table.
 //! The joint centres, and points next to them that show the orientation of the segments, become markers of the body.
 //! Their names are listed in [`crate::motion::skeleton`].
 //!

@@ -34,9 +34,9 @@ pub(crate) struct BodyState<const N: usize> {
     pub(crate) alpha: V3<N>,
     pub(crate) v: V3<N>,
     pub(crate) a: V3<N>,
-    /// From the parent's mass centre to the joint centre [m].
+    /// Vector from the parent's mass centre to the joint centre [m].
     pub(crate) to_joint: V3<N>,
-    /// From the joint centre to the mass centre [m].
+    /// Vector from the joint centre to the mass centre [m].
     pub(crate) to_center: V3<N>,
 }
 
@@ -75,7 +75,7 @@ pub(crate) struct AxisStates<const N: usize> {
     pub(crate) slope: Vec<Lanes<N>>,
     sin: Vec<[f64; N]>,
     cos: Vec<[f64; N]>,
-    /// In the world.
+    /// Directions of the axes in the world.
     pub(crate) direction: Vec<V3<N>>,
 }
 
@@ -151,7 +151,7 @@ fn follow_coordinates<const N: usize>(plan: &Plan, scratch: &mut Scratch<N>) {
     sin_cos(s.value.as_flattened(), s.sin.as_flattened_mut(), s.cos.as_flattened_mut());
 }
 
-/// Computes the state of one body from that of its parent.
+/// Computes the state of one body from the state of its parent.
 #[inline(always)]
 fn place<const N: usize>(
     plan: &Plan,
@@ -165,7 +165,7 @@ fn place<const N: usize>(
         None => parent.rotation,
         Some(offset) => parent.rotation.times_fixed(offset),
     };
-    // Translations, while the axes are still those of F.
+    // Translations, while the axes are still the axes of F.
     let mut to_joint = parent.rotation.turn_fixed(&segment.to_joint);
     let mut slide = [V3::ZERO; 2];
     for k in segment.translations.clone() {

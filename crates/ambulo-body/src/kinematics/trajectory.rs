@@ -11,7 +11,7 @@ use crate::motion::{SmoothMotion, TimeGrid};
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     grid: TimeGrid,
-    /// Per coordinate: value, rate, acceleration, one entry per frame.
+    /// Columns of value, rate and acceleration per coordinate, with one entry per frame.
     columns: Vec<[Vec<f64>; 3]>,
 }
 
@@ -92,8 +92,8 @@ impl Trajectory {
     }
 
     /// Completes a smoothed recording: missing coordinates get the values of the model, coupled ones follow their
-    /// coupler. Locked and prescribed coordinates keep their recorded values, as in OpenSim's inverse dynamics, and get
-    /// those of the model without a recording. A warning names each column that contradicts the model.
+    /// coupler. Locked and prescribed coordinates keep their recorded values, as in OpenSim's inverse dynamics; without
+    /// a recording they get the values of the model. A warning names each column that contradicts the model.
     ///
     /// # Errors
     /// Numbers that are not finite.

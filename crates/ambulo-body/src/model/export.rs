@@ -21,7 +21,7 @@ pub enum ExportError {
     Unknown {
         /// `joint` or `coordinate`.
         part: &'static str,
-        /// Its name.
+        /// Name of the joint or coordinate.
         name: String,
         /// Found value.
         found: &'static str,
@@ -95,7 +95,7 @@ fn name_of(model: &Model, body: Option<BodyId>) -> String {
 
 fn joint(model: &Model, id: BodyId) -> Result<OsimJoint, ExportError> {
     let joint = &model.bodies()[id.index()].joint;
-    // In the order of the model, which may differ from that of the axes.
+    // In the order of the model, which may differ from the order of the axes.
     let own: BTreeSet<CoordinateId> = joint.coordinates().into_iter().collect();
     let as_stated = joint.parent_from_joint;
     let (kind, on_parent) = match (ball_kind(joint)?, standing(joint)) {

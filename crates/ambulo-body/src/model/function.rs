@@ -26,7 +26,7 @@ pub enum Function {
     /// Straight lines between knots, continued beyond the ends (as OpenSim's
     /// `PiecewiseLinearFunction`).
     PiecewiseLinear(Knots),
-    /// The ordinate of the last knot at or before x; before all knots, that of the first one.
+    /// The ordinate of the last knot at or before x; before all knots, the ordinate of the first one.
     PiecewiseConstant(Knots),
     /// A smooth step between two levels (quintic, with zero slope and curvature at both ends).
     Step {

@@ -60,8 +60,8 @@ pub enum JointSpeeds {
     AngularVelocity,
     /// As `AngularVelocity`, with the origin of M on an ellipsoid with these half axes [m]: p = radii * z_M.
     Ellipsoid(Vec3),
-    /// As `Rates`, with the origin of M at the end of an arc of this length [m] that leaves F along its y axis and ends
-    /// along that of M.
+    /// As `Rates`, with the origin of M at the end of an arc of this length [m], which starts along the y axis of F and
+    /// ends along the y axis of M.
     Arc(f64),
 }
 

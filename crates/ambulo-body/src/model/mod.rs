@@ -24,7 +24,7 @@ mod side;
 mod simm_spline;
 pub(crate) mod subject_shape;
 
-pub use anatomy::{Anatomy, Movement};
+pub use anatomy::{Anatomy, Movement, Region};
 pub use bushing::Bushing;
 #[doc(hidden)]
 pub use bushing::{BushingEnd, Resistance};
@@ -123,13 +123,13 @@ impl CoordinateKind {
 /// How the value of a coordinate is determined.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drive {
-    /// By the recording.
+    /// The recording.
     Free,
     /// Fixed at the default value.
     Locked,
-    /// By a function of time [s].
+    /// A function of time [s].
     Prescribed(Function),
-    /// By a function of another coordinate.
+    /// A function of another coordinate.
     Coupled(CoordinateId, Function),
 }
 
@@ -246,7 +246,7 @@ pub enum ModelError {
     PointMassPlace {
         /// The body that should carry it.
         body: String,
-        /// Its distance [m].
+        /// Distance found [m].
         found_m: f64,
         /// Largest allowed distance [m].
         most_m: f64,
@@ -360,7 +360,7 @@ impl Model {
         &self.bushings
     }
 
-    /// The model with these bushings instead of its own.
+    /// The model with its bushings replaced by these.
     ///
     /// # Errors
     /// A bushing on a body that the model does not have.
@@ -443,7 +443,7 @@ impl Model {
         Ok(model)
     }
 
-    /// The model on ground that rises by an angle [rad] along x. The axes are those of the ground, so gravity is
+    /// The model on ground that rises by an angle [rad] along x. The axes are aligned with the ground, so gravity is
     /// inclined.
     #[must_use]
     pub fn on_slope(&self, angle: f64) -> Model {

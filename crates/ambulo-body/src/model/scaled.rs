@@ -9,7 +9,7 @@
 //! - the length of an arc is scaled by the factor of the child along y;
 //! - a coupler whose follower is a translation is multiplied by the factor of the parent along it;
 //! - masses keep their shares, or grow with the volumes of the bodies ([`MassDistribution`]); inertias scale with the
-//!   square of the factor or, if the three factors differ, as those of a cylinder with the smallest and another moment
+//!   square of the factor or, if the three factors differ, as for a cylinder with the smallest and another moment
 //!   of inertia of the body.
 //!
 //! Source: OpenSim 4, Body.cpp (`scaleInertialProperties`), SpatialTransform.cpp, CoordinateCouplerConstraint.cpp
@@ -54,7 +54,7 @@ pub enum ScaleError {
     Factor {
         /// The body.
         body: String,
-        /// Its factors.
+        /// Factors along x, y and z.
         found: [f64; 3],
     },
     /// A mass that is not positive, or a model without mass.

@@ -1,9 +1,9 @@
 //! The cubic spline of the SIMM program, OpenSim's `SimmSpline`.
 //!
-//! Interpolating cubic with continuous curvature. End conditions: the third derivative at each end equals that of the
-//! cubic through the four outermost points (Forsythe, Malcolm, Moler 1977, "Computer Methods for Mathematical
-//! Computations" (unverified), as in OpenSim's `SimmSpline.cpp`). Beyond the ends a straight line continues with
-//! the end slope. Two points give a straight line, three points a third derivative of zero at the ends.
+//! Interpolating cubic with continuous curvature. End conditions: the third derivative at each end equals the third
+//! derivative of the cubic through the four outermost points (Forsythe, Malcolm, Moler 1977, "Computer Methods for
+//! Mathematical Computations" (unverified), as in OpenSim's `SimmSpline.cpp`). Beyond the ends a straight line
+//! continues with the end slope. Two points give a straight line, three points a third derivative of zero at the ends.
 //!
 //! With curvatures M = y'' at the knots and h the spacings, the interior rows are
 //! hᵢ₋₁ Mᵢ₋₁ + 2 (hᵢ₋₁ + hᵢ) Mᵢ + hᵢ Mᵢ₊₁ = 6 (sᵢ - sᵢ₋₁), s the secants; the end rows state M₁ - M₀ = h₀ y''' and

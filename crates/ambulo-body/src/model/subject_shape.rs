@@ -17,6 +17,11 @@ pub struct SegmentShape {
 }
 
 impl SegmentShape {
+    /// A segment of the size in the table whose joint is at a place in its parent [m].
+    pub(crate) fn at(place: Vec3) -> SegmentShape {
+        SegmentShape { factor: 1.0, parent_from_joint: Pose::at(place), child_from_joint: Pose::IDENTITY }
+    }
+
     /// The unchanged shape of every segment.
     #[must_use]
     pub fn of(human: &Human) -> Vec<SegmentShape> {
@@ -58,9 +63,9 @@ impl SolePlacement {
 /// Shape of the body of one person.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SubjectShape {
-    /// One per body, in the order of the model.
+    /// Shape of each segment, in the order of the model's bodies.
     pub segments: Vec<SegmentShape>,
-    /// Markers, which replace those of the figure.
+    /// Markers, which replace the figure's markers.
     pub markers: Vec<Marker>,
     /// Right and left foot.
     pub feet: [SolePlacement; 2],

@@ -1,12 +1,12 @@
 //! A trial of an AddBiomechanics subject (`.b3d`): coordinates of the file's own model, markers, and the ground forces
 //! on the feet.
 //!
-//! The file has no names of coordinates. Their order is that of nimblephysics: from the root outwards, the joints under
+//! The file has no names of coordinates. They are ordered as in nimblephysics: from the root outwards, the joints under
 //! a body in the order of the document, without those that a coupler drives (it leaves out the patellae). The mass
-//! centre, which the file also states, tells whether that order is right.
+//! centre, which the file also states, shows whether that order is right.
 //!
 //! The ground force of many frames is marked as missing, with a reason: a foot next to the plates, a force that
-//! contradicts the motion. Its value is then often zero and means nothing. Only the longest time without such a frame
+//! contradicts the motion. Its value is then often zero and has no meaning. Only the longest time without such a frame
 //! is used as measured.
 //!
 //! Source: keenon/nimblephysics, `dart/biomechanics/OpenSimParser.cpp` and `SubjectOnDisk.cpp`.
@@ -156,7 +156,7 @@ impl<'a> B3dTrial<'a> {
         self.header.passes.get(last).map(|pass| pass.model.as_str()).ok_or(B3dError::NoPass)
     }
 
-    /// The coordinates of the last pass; `document` and `model` are those of [`B3dTrial::model_text`].
+    /// The coordinates of the last pass; `document` and `model` come from [`B3dTrial::model_text`].
     ///
     /// # Errors
     /// Coordinates that do not belong to the model.

@@ -1,7 +1,7 @@
 //! Markers and joint angles of BIDS motion data.
 //!
 //! Three channels of the type POS with the components x, y and z and the same tracked point are a marker. A channel of
-//! the type JNTANG is a coordinate of a model if its name or tracked point is that of the coordinate; so is a POS
+//! the type JNTANG is a coordinate of a model if its name or tracked point names the coordinate; so is a POS
 //! channel with the name of a translation. Pinned by: tests/bids_recordings.rs
 
 use super::import::coordinates_from_table;
@@ -34,9 +34,9 @@ pub enum BidsError {
     Unit {
         /// The channel.
         channel: String,
-        /// Its type.
+        /// Type of the channel.
         kind: String,
-        /// Its unit.
+        /// Unit of the channel.
         found: String,
         /// Known units.
         expected: &'static str,

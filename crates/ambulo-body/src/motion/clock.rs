@@ -1,8 +1,9 @@
 //! The clock of a recording: the times of its samples, compared with the frame rate that the file states.
 //!
-//! A motion has a sample every [`PLAUSIBLE_S`]. Other steps are milliseconds, frames per second in place of seconds per
-//! frame, or a broken clock. Times may be rounded until they repeat, or all be zero: then frame number over frame rate
-//! is a better clock.
+//! The time between two samples of a motion lies in [`PLAUSIBLE_S`]. Other values are milliseconds, frames per second in
+//! place of seconds per frame, or a broken clock. Times may be rounded until they repeat, or all be zero: the frame
+//! number divided by the frame rate is used then.
+//!
 //! Pinned by: tests/motion_clock.rs
 
 use crate::findings::{Code, Findings};
@@ -16,10 +17,11 @@ const SAME: f64 = 0.02;
 const USUAL_HZ: [f64; 15] =
     [24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 72.0, 90.0, 100.0, 120.0, 150.0, 200.0, 240.0];
 
-/// What a number of seconds per frame that no recording has looks like: what it is, and the seconds that are meant.
-/// `None` if a recording may have this step.
+/// Interprets an implausible time between two samples: the quantity that it probably is, and the time in seconds that
+/// follows. `None` if the time is plausible.
 ///
-/// 0.00833 is the step of 120 frames per second; 120 looks like this rate itself, 8.33 like the step in milliseconds.
+/// At 120 frames per second the step is 0.00833 s; a value of 120 is probably the rate itself, and 8.33 the step in
+/// milliseconds.
 #[must_use]
 pub fn misread_step(step_s: f64) -> Option<(&'static str, f64)> {
     let [shortest, longest] = PLAUSIBLE_S;
@@ -38,7 +40,8 @@ pub fn misread_step(step_s: f64) -> Option<(&'static str, f64)> {
     usual.or_else(|| choices[1..].iter().find(|(_, seconds)| plausible(*seconds))).copied()
 }
 
-/// The time unit of a column of times whose steps no recording has: its name, and its length in seconds.
+/// The time unit of a column of times with implausible steps: its name, and its length in seconds. `None` if the steps
+/// are plausible in seconds.
 ///
 /// The median step of `times` decides, so that some lost samples do not matter. For a stream, any dozen stamps suffice.
 #[must_use]
@@ -51,10 +54,10 @@ pub fn unit_of_times(times: &[f64]) -> Option<(&'static str, f64)> {
     (PLAUSIBLE_S[0]..=PLAUSIBLE_S[1]).contains(&seconds).then_some((name, seconds / step))
 }
 
-/// Times of a table whose header may state a frame rate, with `frames` the number of each frame (counted from 1): as
-/// they are, or what they must mean, with a finding.
+/// Corrects the times of a table: another unit, times that do not increase, rounded times. Each correction is reported.
+/// `frames` has the number of each frame, counted from 1; `stated_hz` is the frame rate in the header, if it has one.
 ///
-/// Times that are wrong in no way that is known here are returned as they are.
+/// Other times are returned unchanged.
 #[must_use]
 pub fn clock_of_table(
     name: &str,
@@ -81,16 +84,15 @@ fn in_seconds(name: &str, times: &[f64], findings: &mut Findings) -> Option<Vec<
     let (unit, seconds) = unit_of_times(times)?;
     let step = median(times.windows(2).map(|pair| pair[1] - pair[0]))?;
     let message = format!(
-        "{name}: the times are {step:.4} apart, which are no seconds between two samples; they were read as {unit} \
-         ({:.2} \
-         samples per second). hint: write the times in seconds",
+        "{name}: the times are {step:.4} apart, which cannot be the seconds between two samples; they were read as \
+         {unit} ({:.2} samples per second). hint: write the times in seconds",
         1.0 / (seconds * step)
     );
     findings.report(Code::MotionClock, message);
     Some(times.iter().map(|time| time * seconds).collect())
 }
 
-/// Frame number over frame rate, where the times do not increase at all.
+/// The frame number divided by the frame rate, where the times do not increase at all.
 fn numbered(
     name: &str,
     times: &[f64],
@@ -104,9 +106,8 @@ fn numbered(
         return None;
     }
     let message = format!(
-        "{name}: the times do not increase (all are {first} s); frame number over the stated rate of {stated_hz} Hz \
-         was \
-         used instead"
+        "{name}: the times do not increase (all are {first} s); the frame number divided by the stated rate of \
+         {stated_hz} Hz was used instead"
     );
     findings.report(Code::MotionClock, message);
     let number = |frame: usize| match frames.and_then(|frames| frames.get(frame)) {
@@ -116,8 +117,8 @@ fn numbered(
     Some((0..times.len()).map(|frame| number(frame) / stated_hz).collect())
 }
 
-/// An even clock for times that were rounded so that steps repeat or differ: the stated rate if the times agree with
-/// it, otherwise the mean rate.
+/// Evenly spaced times in place of times that were rounded so coarsely that their steps differ: at the stated rate if
+/// the times agree with it, otherwise at the mean rate.
 fn unrounded(name: &str, times: &[f64], stated_hz: Option<f64>, findings: &mut Findings) -> Option<Vec<f64>> {
     let (first, last) = (*times.first()?, *times.last()?);
     let steps = times.len().checked_sub(1)? as f64;
@@ -130,16 +131,15 @@ fn unrounded(name: &str, times: &[f64], stated_hz: Option<f64>, findings: &mut F
         return None;
     }
     let message = format!(
-        "{name}: the times were rounded to {digit} s, too coarse for {rate_hz:.2} samples per second; frame number \
-         over \
-         this rate was used instead"
+        "{name}: the times were rounded to {digit} s, too coarse for {rate_hz:.2} samples per second; the frame number \
+         divided by this rate was used instead"
     );
     findings.report(Code::MotionClock, message);
     Some((0..times.len()).map(at).collect())
 }
 
-/// Whether the steps have two neighbouring lengths, both often, as rounding makes them; a repeated row makes one step
-/// of another length.
+/// Whether the steps have two neighbouring lengths that are both frequent, as after rounding. A repeated row changes
+/// only one step.
 fn alternates(times: &[f64], digit: f64) -> bool {
     const OFTEN: f64 = 0.03;
     const FEWEST: usize = 12;
@@ -173,7 +173,7 @@ fn report_other_rate(name: &str, times: &[f64], stated_hz: f64, findings: &mut F
     let differs = |hz: f64| (hz / stated_hz - 1.0).abs() > SAME;
     if differs(rate_hz) && differs(step_hz) {
         let message = format!(
-            "{name}: the header states {stated_hz} samples per second, but the times are those of {rate_hz:.2}; the \
+            "{name}: the header states {stated_hz} samples per second, but by the times there are {rate_hz:.2}; the \
              times were used. hint: every speed and force depends on it; correct the one that is wrong"
         );
         findings.report(Code::MotionClock, message);

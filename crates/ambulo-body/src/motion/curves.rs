@@ -51,7 +51,7 @@ pub enum CurveError {
         time_s: f64,
         /// Change from the row before [deg].
         change_deg: f64,
-        /// How many more jumps there are, in words.
+        /// Number of further jumps, in words.
         more: String,
     },
 }
@@ -119,7 +119,7 @@ impl RecordedTable {
     /// Spline of an angle for a joint to follow [rad]. Whole turns are removed.
     ///
     /// # Errors
-    /// Those of [`RecordedTable::column`], and an angle that jumps.
+    /// Errors of [`RecordedTable::column`], and an angle that jumps.
     pub fn angle(&self, name: &str, findings: &mut Findings) -> Result<NaturalSpline, CurveError> {
         let Samples { times, mut values, rows } = self.values(name, true, findings)?;
         let turns = jumps::unwrapped(&mut values);

@@ -2,8 +2,8 @@
 //!
 //! gain(f) = 1 / (1 + (tan(π f T) / Ω)^(2 order)),   Ω = tan(π cutoff T),   T the sampling interval
 //!
-//! The filter runs forwards and backwards, so phases cancel and this gain is the square of that of one pass.
-//! **The cut-off is that of one pass, where its gain is 0.707; after both passes the gain there is 1/2 (-6 dB).**
+//! The filter runs forwards and backwards, so phases cancel and this gain is the square of the gain of one pass.
+//! **The cut-off refers to one pass, where its gain is 0.707; after both passes the gain there is 1/2 (-6 dB).**
 //! OpenSim's `Signal::LowpassIIR` has the same convention. Texts that state the -3 dB point of both passes divide the
 //! cut-off by (√2 - 1)^(1/(2 order)), 0.863 for order 3, before designing the filter.
 //!
@@ -32,7 +32,7 @@ use std::f64::consts::PI;
 
 /// Highest order: the sections of higher orders ring.
 pub const MAX_ORDER: usize = 8;
-/// Lowest cut-off [Hz]: below it a filter leaves nothing of a recording of a few seconds.
+/// Lowest cut-off [Hz]: below it a filter removes the whole motion of a recording of a few seconds.
 pub const LOWEST_CUTOFF_HZ: f64 = 0.1;
 
 /// Smallest number of samples that can be filtered: OpenSim's limit.
@@ -194,7 +194,7 @@ fn check(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<(), FilterErr
     }
 }
 
-/// Both passes over `N` series, whose samples stand side by side.
+/// Both passes over `N` series, with the samples of an instant side by side in memory.
 fn run_both_ways<const N: usize>(mut rows: Vec<[f64; N]>, rate_hz: f64, filter: LowPass) -> Vec<[f64; N]> {
     let sections = Section::cascade(filter.order, tan(PI * filter.cutoff_hz / rate_hz));
     for _ in 0..2 {

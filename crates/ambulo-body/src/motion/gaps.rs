@@ -39,7 +39,9 @@ pub fn fill_gaps(name: &str, times: &[f64], column: &[f64], findings: &mut Findi
         to_s: times[to],
         longest_s: LONGEST_GAP_S,
     };
-    let (Some(&first), Some(&last)) = (known.first(), known.last()) else { return Err(gap(0, column.len() - 1)) };
+    let (Some(&first), Some(&last)) = (known.first(), known.last()) else {
+        return Err(MotionError::Empty { column: name.to_owned() });
+    };
     if first > 0 {
         return Err(gap(0, first - 1));
     }

@@ -37,7 +37,7 @@ pub(super) fn unit_of_frames<P: Iterator<Item = Vec3>>(
     frames: usize,
     places: impl Fn(usize) -> P,
 ) -> Option<(&'static str, f64)> {
-    /// Frames that are looked at, spread over the recording.
+    /// Number of evaluated frames, spread over the recording.
     const FRAMES: usize = 200;
     let step = frames.div_ceil(FRAMES).max(1);
     let extent = |frame: usize| {

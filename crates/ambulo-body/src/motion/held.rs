@@ -2,8 +2,7 @@
 //!
 //! Programs that play, resample or fill a recording may repeat its last frame: every second frame, 20 frames per second
 //! held as 100, the rest of a trial after the cameras stopped, or one marker while it was hidden. Measured values never
-//! repeat exactly in motion, in contrast to a smooth movement, whose curves pass through a held stretch with a jump of
-//! the velocity.
+//! repeat exactly in motion, and the velocity jumps at the ends of a held stretch, as it does in no smooth movement.
 //!
 //! - A **frame** is held if all its values equal those of the frame before, and the change of the values right before
 //!   or after the repeated frames is at least [`SUDDEN`] of the usual change between frames. Values that are rounded,
@@ -11,26 +10,31 @@
 //! - A **marker** is held if it repeats at least [`FEWEST`] samples, moves faster than [`MOVING_M_S`] right before or
 //!   after, by more than its rounding, and most other markers move meanwhile.
 //!
-//! Held samples are gaps. Pinned by: tests/motion_held.rs
+//! Held samples are gaps. Sensors and poses of segments are judged by points that are fixed to them: the tips of two
+//! axes of unit length, so that a distance of 1 m is a turn of 1 rad, and the origin of a pose.
+//!
+//! Pinned by: tests/motion_held.rs
 
 use super::gaps::{LONGEST_GAP_S, bridge_gaps};
-use super::marker_recording::MarkerRecording;
+use super::marker_recording::{MarkerPath, MarkerRecording};
 use super::recording::Motion;
+use super::segment_poses::{SegmentPoses, in_words};
+use super::sensor_recording::SensorRecording;
 use crate::findings::{Code, Findings};
 use crate::model::{CoordinateKind, Model};
 use crate::numerics::median;
-use crate::spatial::Vec3;
+use crate::spatial::{Mat3, Pose, Vec3};
 use std::ops::Range;
 
 /// The change at an end of a held stretch, as a share of the usual change between frames.
 const SUDDEN: f64 = 0.3;
-/// A body moves whose markers move further than this, median [m]; people who stand sway less.
+/// The body moves if the median marker moves further than this [m]; the sway of people who stand is smaller.
 const MOVES_M: f64 = 0.05;
-/// A body moves of which an angle changes by more than this [rad].
+/// The body moves if an angle changes by more than this [rad].
 const MOVES_RAD: f64 = 0.1;
 /// A marker that repeats fewer samples may be at rest for a moment.
 const FEWEST: usize = 2;
-/// A marker that a program holds moved faster than this before or afterwards [m/s].
+/// Least speed of a marker before or after a stretch in which a program holds it [m/s].
 const MOVING_M_S: f64 = 0.3;
 /// Changes of fewer steps than this are rounding.
 const STEPS: f64 = 3.5;
@@ -45,9 +49,74 @@ const PATTERN: usize = 5;
 
 /// Makes gaps of the held samples of markers.
 pub fn release_held_markers(recording: &mut MarkerRecording, findings: &mut Findings) {
+    release(recording, "markers", findings);
+}
+
+/// Makes gaps of the held samples of sensors, and drops the frames at both ends that have no sample afterwards.
+pub fn release_held_sensors(sensors: &mut SensorRecording, findings: &mut Findings) {
+    let of = |orientation: &Option<Mat3>, axis: usize| {
+        orientation.map_or(Vec3::repeat(f64::NAN), |orientation| orientation.column(axis).into())
+    };
+    let paths = sensors.sensors.iter().flat_map(|sensor| {
+        [0, 1].map(|axis| MarkerPath {
+            name: sensor.name.clone(),
+            positions: sensor.orientations.iter().map(|orientation| of(orientation, axis)).collect(),
+        })
+    });
+    let mut tips = points(&sensors.times, paths.collect());
+    if !release(&mut tips, "sensors", findings) {
+        return;
+    }
+    for (sensor, tips) in sensors.sensors.iter_mut().zip(tips.markers.as_chunks::<2>().0) {
+        hide(&mut sensor.orientations, tips);
+    }
+    let is_known = |frame: &usize| sensors.sensors.iter().any(|sensor| sensor.orientations[*frame].is_some());
+    let frames = sensors.times.len();
+    let kept = (0..frames).find(is_known).unwrap_or(0)..(0..frames).rfind(is_known).map_or(frames, |last| last + 1);
+    sensors.times = sensors.times[kept.clone()].to_vec();
+    sensors.sensors.iter_mut().for_each(|sensor| sensor.orientations = sensor.orientations[kept.clone()].to_vec());
+}
+
+/// Makes gaps of the held samples of poses; returns whether there were any.
+pub fn release_held_poses(poses: &mut SegmentPoses, findings: &mut Findings) -> bool {
+    let missing = Vec3::repeat(f64::NAN);
+    let paths = poses.segments.iter().flat_map(|(segment, path)| {
+        let of = |place: fn(&Pose) -> Vec3| MarkerPath {
+            name: in_words(*segment),
+            positions: path.iter().map(|pose| pose.as_ref().map_or(missing, place)).collect(),
+        };
+        [of(|pose| pose.translation), of(|pose| pose.place(Vec3::x())), of(|pose| pose.place(Vec3::y()))]
+    });
+    let mut fixed = points(&poses.times, paths.collect());
+    let is_held = release(&mut fixed, "segments", findings);
+    for ((_, path), points) in poses.segments.iter_mut().zip(fixed.markers.as_chunks::<3>().0) {
+        hide(path, points);
+    }
+    is_held
+}
+
+/// Points that are fixed to sensors or segments.
+fn points(times: &[f64], markers: Vec<MarkerPath>) -> MarkerRecording {
+    let duration_s = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+    let rate_hz = times.len().saturating_sub(1) as f64 / duration_s.max(f64::MIN_POSITIVE);
+    MarkerRecording { name: String::new(), rate_hz, times: times.to_vec(), markers }
+}
+
+/// Removes samples that repeat the one before them and of which a point was released.
+fn hide<T: Clone + PartialEq>(samples: &mut [Option<T>], points: &[MarkerPath]) {
+    let recorded = samples.to_vec();
+    for frame in 1..samples.len() {
+        if recorded[frame] == recorded[frame - 1] && points.iter().any(|point| !point.is_seen(frame)) {
+            samples[frame] = None;
+        }
+    }
+}
+
+/// Makes gaps of the held samples of markers, or of points of the named things; returns whether there were any.
+fn release(recording: &mut MarkerRecording, things: &str, findings: &mut Findings) -> bool {
     let spread = recording.markers.iter().map(|marker| extent(&marker.positions));
     if median(spread).is_none_or(|moved| moved < MOVES_M) {
-        return;
+        return false;
     }
     let columns: Vec<Vec<f64>> = recording
         .markers
@@ -59,7 +128,7 @@ pub fn release_held_markers(recording: &mut MarkerRecording, findings: &mut Find
         held.iter().for_each(|run| marker.positions[run.clone()].fill(Vec3::repeat(f64::NAN)));
     }
     report_frames(&recording.times, &held, findings);
-    release_single_markers(recording, findings);
+    release_single_markers(recording, things, findings) || !held.is_empty()
 }
 
 /// Bridges the held samples of coordinates. Frames that are held at an end of the recording are dropped, and a held
@@ -91,7 +160,7 @@ pub fn release_held_coordinates(model: &Model, motion: &mut Motion, findings: &m
     motion.columns.iter_mut().flatten().for_each(|column| drop(bridge_gaps(times, column, LONGEST_GAP_S)));
 }
 
-/// The stretches of frames that repeat the frame before them while the values change.
+/// Finds the stretches of frames that repeat the frame before them, in a recording whose values change otherwise.
 fn held_frames(columns: &[&[f64]]) -> Vec<Range<usize>> {
     let ranges: Vec<f64> = columns.iter().map(|column| range(column)).collect();
     let moving: Vec<(&[f64], f64)> =
@@ -113,7 +182,7 @@ fn held_frames(columns: &[&[f64]]) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Mean change from the frame before, relative to the range of each column; `None` if nothing changes.
+/// Returns the mean change from the frame before, relative to the range of each column, or `None` if nothing changes.
 fn change(columns: &[(&[f64], f64)], frame: usize) -> Option<f64> {
     let same = |(column, _): &(&[f64], f64)| {
         let [before, now] = [column[frame - 1], column[frame]];
@@ -127,7 +196,7 @@ fn change(columns: &[(&[f64], f64)], frame: usize) -> Option<f64> {
     Some(known.iter().sum::<f64>() / known.len().max(1) as f64)
 }
 
-/// Stretches of frames, from the second one on, for which something holds.
+/// Finds the stretches of frames, from the second one on, that have a property.
 fn runs(frames: usize, holds: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     let all: Vec<usize> = (1..frames).collect();
     let stretches = all.chunk_by(|a, b| holds(*a) == holds(*b));
@@ -147,7 +216,7 @@ fn extent(path: &[Vec3]) -> f64 {
 
 // ---- single markers ----
 
-fn release_single_markers(recording: &mut MarkerRecording, findings: &mut Findings) {
+fn release_single_markers(recording: &mut MarkerRecording, things: &str, findings: &mut Findings) -> bool {
     let step = smallest_change(recording);
     let found: Vec<(usize, Vec<Range<usize>>)> = (0..recording.markers.len())
         .map(|marker| (marker, held_of_marker(recording, marker, step)))
@@ -160,14 +229,16 @@ fn release_single_markers(recording: &mut MarkerRecording, findings: &mut Findin
         let frames: usize = runs.iter().map(ExactSizeIterator::len).sum();
         named.push(format!("`{}` {frames} frames from {:.3} s", path.name, recording.times[runs[0].start]));
     }
+    named.dedup();
     if !named.is_empty() {
         let message = format!(
-            "markers stay exactly in place while the others move, as if a gap had been filled by holding the last \
+            "{things} stay exactly in place while the others move, as if a gap had been filled by holding the last \
              position; these samples were treated as gaps: {}",
             named.join(", ")
         );
         findings.report(Code::MarkersHeldInPlace, message);
     }
+    !named.is_empty()
 }
 
 /// The smallest change of any coordinate: the resolution of the file [m].
@@ -206,8 +277,7 @@ fn report_frames(times: &[f64], held: &[Range<usize>], findings: &mut Findings) 
     let count: usize = held.iter().map(ExactSizeIterator::len).sum();
     let message = format!(
         "{count} of {} frames repeat the frame before them exactly while the body moves, the first at {:.3} s: {}; \
-         they \
-         were treated as gaps",
+         they were treated as gaps",
         times.len(),
         times[first.start],
         pattern(times, held)
@@ -215,7 +285,7 @@ fn report_frames(times: &[f64], held: &[Range<usize>], findings: &mut Findings) 
     findings.report(Code::MotionHeldFrames, message);
 }
 
-/// What held frames look like.
+/// Describes the pattern of held frames in words, such as the frame rate at which they were recorded.
 fn pattern(times: &[f64], held: &[Range<usize>]) -> String {
     let duration_s = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
     let rate_hz = (times.len() - 1) as f64 / duration_s;

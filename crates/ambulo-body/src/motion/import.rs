@@ -82,7 +82,7 @@ fn unstated_unit(model: &Model, table: &Table) -> bool {
     table.columns().skip(1).filter_map(of_coordinate).any(|usual| usual > LARGEST_PLAUSIBLE_ANGLE)
 }
 
-/// The coordinate with this name; if there is none, the only one with this name in other letters.
+/// The coordinate with this name; otherwise the only coordinate with this name apart from upper and lower case.
 fn coordinate_named(model: &Model, name: &str) -> Option<CoordinateId> {
     let is_same = |id: &CoordinateId| model.coordinates()[id.index()].name.eq_ignore_ascii_case(name);
     let mut others = model.coordinate_ids().filter(is_same);
@@ -114,6 +114,7 @@ fn no_coordinate(model: &Model, table: &Table) -> MotionError {
         model: model.name().to_owned(),
         found: join(table.names().iter().map(String::as_str).collect()),
         known: join(model.coordinates().iter().map(|c| c.name.as_str()).collect()),
+        are_forces: ["vx", "vy", "px", "py"].iter().all(|end| table.names().iter().any(|name| name.ends_with(end))),
     }
 }
 
@@ -160,6 +161,9 @@ pub(super) fn rows_with_rising_time(
         } else {
             findings.report(Code::MotionRepeatedRow, "rows that repeat the one before them were dropped");
         }
+    }
+    if let ([only], true) = (&kept[..], times.len() > 1) {
+        return Err(MotionError::OneTime { rows: times.len(), time: times[*only] });
     }
     Ok(kept)
 }

@@ -72,7 +72,7 @@ pub fn jumps(model: &Model, motion: &Motion) -> Vec<Jumps> {
     model.coordinate_ids().filter_map(of_coordinate).collect()
 }
 
-/// What is a jump of a coordinate; `None` for one that another coordinate determines.
+/// Limits beyond which a coordinate jumps; `None` for a coupled coordinate.
 fn limits(kind: CoordinateKind) -> Option<Limits> {
     match kind {
         CoordinateKind::Rotation => Some(ROTATION),

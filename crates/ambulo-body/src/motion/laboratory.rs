@@ -5,7 +5,7 @@
 //! not move (a treadmill, standing), the direction that feet and pelvis face. Within [`SNAP_DEG`] of an axis it is that
 //! axis, otherwise the measured heading. The rows of `world_from_lab` are forward, up and right = forward × up.
 //!
-//! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is not that of a person, the
+//! **Unit.** A body of 1800 m was written in millimetres: if the height of the markers is implausible for a person, the
 //! power of ten that makes it plausible is used.
 //! Pinned by: tests/laboratory.rs, tests/laboratory_files.rs
 
@@ -46,7 +46,7 @@ pub struct Laboratory {
     pub world_from_lab: Mat3,
     /// 1, or the factor that corrects a wrong unit.
     pub metres_per_stated_metre: f64,
-    /// How forward was determined.
+    /// Method that determined the forward direction.
     pub heading: Heading,
     /// Change of walking direction [deg]; `None` for a straight walk or none.
     pub turn_deg: Option<f64>,
@@ -54,12 +54,12 @@ pub struct Laboratory {
     pub statement: String,
 }
 
-/// How forward was determined.
+/// Method that determined the forward direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Heading {
-    /// By the motion of the pelvis.
+    /// The motion of the pelvis.
     Walking,
-    /// By the facing direction of a body that stays in place.
+    /// The facing direction of a body that stays in place.
     Facing,
     /// Unknown; an axis was assumed.
     Unknown,
@@ -72,7 +72,7 @@ impl Laboratory {
         (self.world_from_lab * direction).dot(&Vec3::y()) > cos(UPRIGHT_DEG.to_radians())
     }
 
-    /// The same laboratory with the axes of the ground of a model as those of the world; `unit` is for the statement.
+    /// The same laboratory with the ground axes of a model as world axes; `unit` is for the statement.
     #[must_use]
     pub fn as_ground(self, unit: &str) -> Laboratory {
         let statement = format!("ground of the model: x, y up, z, {unit} -> m");

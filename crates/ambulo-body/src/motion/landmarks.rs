@@ -98,7 +98,7 @@ impl Landmarks {
         is_foot(&self.right) && is_foot(&self.left) && self.asis_r.is_some() && self.asis_l.is_some()
     }
 
-    /// These landmarks, and those of `other` that are missing.
+    /// These landmarks; missing ones are taken from `other`.
     fn or(self, other: Landmarks) -> Landmarks {
         let foot = |own: FootMarkers, other: FootMarkers| FootMarkers {
             heel: own.heel.or(other.heel),

@@ -1,5 +1,5 @@
-//! Checks of coordinates that arrive frame by frame: those of a recorded table ([`super::coordinates_from_table`]),
-//! with what has arrived so far. Each trouble is reported once.
+//! Checks of coordinates that arrive frame by frame. They are the checks of a recorded table
+//! ([`super::coordinates_from_table`]), applied to the frames that have arrived so far. Each fault is reported once.
 
 use super::import::{ENOUGH_ROTATIONS, LARGEST_PLAUSIBLE_ANGLE, SMALLEST_PLAUSIBLE_SPAN_DEG};
 use super::jumps::{AROUND, jump_in_the_middle, whole_turns};
@@ -7,17 +7,17 @@ use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateKind, Model};
 use std::f64::consts::TAU;
 
-/// Time after which units are judged by what has not happened: two steps [s].
+/// Time after which angles that stayed small are judged: two steps [s].
 const JUDGED_S: f64 = 2.5;
-/// Rotations beyond this many radians that show degrees: one alone may be the heading of a person who has turned.
+/// Number of implausibly large rotations that show degrees: a single one may be the heading of a person who turned.
 const ENOUGH_LARGE: usize = 2;
-/// Rise and fall of a pelvis that a body cannot make while every angle stays within 3.2 degrees [m]: legs of 0.85 m
+/// Vertical movement of the pelvis that is impossible while every angle stays within 3.2 degrees [m]: legs of 0.85 m
 /// need 25 degrees at the knee, feet of 0.2 m need 6 degrees at the ankle.
 const RISE_M: f64 = 0.02;
-/// A faster person [m/s], or a higher floor [m], does not exist where a motion is recorded.
+/// Largest plausible speed of a person [m/s] and height of the pelvis [m].
 const FASTEST_M_S: f64 = 50.0;
 const HIGHEST_M: f64 = 100.0;
-/// Frames in which a position must be impossible before its unit is doubted [s].
+/// Time for which a position must be impossible before its unit is doubted [s].
 const IMPOSSIBLE_S: f64 = 0.5;
 /// Allowed excess over a coordinate's range [rad], as for recordings, and how long it may be exceeded [s].
 const RANGE_SLACK_RAD: f64 = 0.35;
@@ -34,7 +34,7 @@ pub struct LiveChecks {
     findings: Findings,
 }
 
-/// What is known of a coordinate.
+/// The state of the checks of one coordinate.
 #[derive(Debug, Clone)]
 struct Column {
     /// Whole turns that were removed so far.
@@ -51,7 +51,7 @@ struct Column {
 }
 
 impl LiveChecks {
-    /// Before the first frame.
+    /// Starts the checks of a model's coordinates that arrive at this rate.
     #[must_use]
     pub fn new(model: &Model, rate_hz: f64) -> LiveChecks {
         let defaults: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.default_value).collect();
@@ -69,7 +69,7 @@ impl LiveChecks {
         LiveChecks { step_s: 1.0 / rate_hz, frames: 0, columns, findings: Findings::default() }
     }
 
-    /// What was found so far, each trouble once.
+    /// The findings so far; each fault appears once.
     #[must_use]
     pub fn findings(&self) -> &Findings {
         &self.findings
@@ -143,8 +143,8 @@ impl LiveChecks {
         let mut known = model.coordinates().iter().zip(&self.columns);
         let Some((coordinate, column)) = known.find(|(_, column)| column.impossible > many) else { return };
         let message = format!(
-            "`{}` is {:.1} m and moves as no person does: positions look like millimetres or centimetres; all forces \
-             are wrong. hint: send metres",
+            "`{}` is {:.1} m and moves faster or higher than a person can: positions look like millimetres or \
+             centimetres; all forces are wrong. hint: send metres",
             coordinate.name, column.last
         );
         report_once(&mut self.findings, Code::MotionLengthUnit, message);

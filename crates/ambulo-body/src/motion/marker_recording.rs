@@ -11,7 +11,7 @@ use ambulo_formats::trc::Trc;
 use std::ops::Range;
 
 /// Marker trajectories. From a file they are in the axes of the laboratory; [`MarkerRecording::rotated`] rotates them
-/// to those of the world.
+/// to world axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerRecording {
     /// Name of their source, for messages.
@@ -51,7 +51,7 @@ pub enum MarkerError {
         name: String,
         /// Number of frames of the recording.
         frames: usize,
-        /// Its first marker names.
+        /// First marker names of the recording.
         listed: String,
     },
     /// Two points for most names, at different places.
@@ -118,7 +118,7 @@ impl MarkerRecording {
     }
 
     /// Removes the frames at both ends in which less than half of the markers are visible: the person walks into and
-    /// out of the view of the cameras. Returns the whole recording if nothing would be left.
+    /// out of the view of the cameras. Returns the whole recording if no frames would be left.
     #[must_use]
     pub fn trimmed_to_visible(&self) -> MarkerRecording {
         let ever_seen: Vec<&MarkerPath> =
@@ -141,6 +141,22 @@ impl MarkerRecording {
             rate_hz: self.rate_hz,
             times: self.times.get(frames.clone()).unwrap_or(&self.times).to_vec(),
             markers: self.markers.iter().map(cut).collect(),
+        }
+    }
+
+    /// At most this many frames, evenly spread over the recording.
+    #[must_use]
+    pub fn sample(&self, most: usize) -> MarkerRecording {
+        let step = self.frames().div_ceil(most.max(1)).max(1);
+        let path = |path: &MarkerPath| MarkerPath {
+            name: path.name.clone(),
+            positions: path.positions.iter().copied().step_by(step).collect(),
+        };
+        MarkerRecording {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz / step as f64,
+            times: self.times.iter().copied().step_by(step).collect(),
+            markers: self.markers.iter().map(path).collect(),
         }
     }
 
@@ -269,8 +285,8 @@ fn is_finite(position: &Vec3) -> bool {
     position.iter().all(|x| x.is_finite())
 }
 
-/// Keeps one trajectory per name: the one that is visible longest, at the position of the first. Where most names of a
-/// body have two points at different places, these are two people.
+/// Keeps one trajectory per name: the one that is visible longest, at the position of the first. If most names of a
+/// body have two points at different places, these are two persons.
 fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Result<Vec<MarkerPath>, MarkerError> {
     let seen = |path: &MarkerPath| (0..path.positions.len()).filter(|&i| path.is_seen(i)).count();
     let mut kept: Vec<MarkerPath> = Vec::new();
@@ -297,7 +313,7 @@ fn one_of_each_name(paths: Vec<MarkerPath>, findings: &mut Findings) -> Result<V
     Err(MarkerError::TwoPeople { count: twice.len(), apart_m, listed: listed.join(", ") })
 }
 
-/// Two people are further from each other than a marker from a ghost of it [m].
+/// Two persons are further apart than a marker and its ghost [m].
 const FROM_PERSON_TO_PERSON_M: f64 = 0.2;
 /// Fewest markers of a person: a pelvis and two legs.
 const OF_A_PERSON: usize = 8;

@@ -2,7 +2,7 @@
 //!
 //! The three columns of a marker end with x, y and z after a separator, or with nothing in between: `LASI_x`, `LASI.X`,
 //! `LASI X`, `LASI:x`, `LASIx`. Ambulo writes such tables itself (`convert walk.c3d walk.csv`), in metres. The unit is
-//! not stated in a table; the size of the person tells it.
+//! not stated in a table; it is inferred from the size of the person.
 
 use super::clock::clock_of_table;
 use super::guessed_unit::unit_of_frames;

@@ -45,7 +45,7 @@ pub use device_recording::{DeviceRecording, device_from_table};
 pub use force_plate::{PlateError, PlateRecording, PlateSettings, plates_from_c3d, standing_weight_n};
 pub use force_recording::{ForceRecording, force_recordings};
 pub use gait_event::{Event, EventKind, events_from_c3d};
-pub use held::{release_held_coordinates, release_held_markers};
+pub use held::{release_held_coordinates, release_held_markers, release_held_poses, release_held_sensors};
 pub use import::coordinates_from_table;
 #[doc(hidden)]
 pub use jumps::{Jumps, jumps};
@@ -73,4 +73,4 @@ pub use smooth::{SmoothMotion, SmoothSettings, Smoother, smooth};
 pub use smpl::{SmplBody, SmplError, SmplMotion};
 pub use straightened::straightened;
 pub use subject_parameters::{SubjectParameters, subject_from_c3d};
-pub use time_grid::{TimeGrid, Window, interpolate};
+pub use time_grid::{Between, TimeGrid, Window, interpolate};

@@ -10,7 +10,7 @@ use ambulo_formats::c3d::C3d;
 pub struct RecordedMotion {
     /// Markers; of poses, their joint centres and the points next to them.
     pub markers: MarkerRecording,
-    /// Poses of segments, if the file has those of pelvis and legs.
+    /// Poses of segments, if the file has poses of pelvis and legs.
     pub poses: Option<SegmentPoses>,
 }
 

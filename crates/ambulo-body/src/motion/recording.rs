@@ -61,8 +61,12 @@ pub enum MotionError {
     },
     /// No column of a coordinate of the model.
     #[error(
-        "no column names a coordinate of the model `{model}`; found {found}; expected some of {known}. hint: is this \
-         the motion of another model?"
+        "no column names a coordinate of the model `{model}`; found {found}; expected some of {known}. hint: {}",
+        if *are_forces {
+            "these are the columns of measured forces, which belong to the recording of a motion"
+        } else {
+            "is this the motion of another model?"
+        }
     )]
     NoCoordinate {
         /// Name of the model.
@@ -71,6 +75,8 @@ pub enum MotionError {
         found: String,
         /// The model's coordinates.
         known: String,
+        /// Whether the columns are named like forces and centres of pressure.
+        are_forces: bool,
     },
     /// A required column of a force recording is missing.
     #[error("no column `{column}` for {purpose}; found {found}. hint: check the identifiers of the external loads")]
@@ -118,6 +124,22 @@ pub enum MotionError {
         to_s: f64,
         /// Longest gap that is filled [s].
         longest_s: f64,
+    },
+    /// A column without any number.
+    #[error("`{column}` has no number in any row; expected a number in every row, or no such column")]
+    Empty {
+        /// The column.
+        column: String,
+    },
+    /// Rows that all have one time.
+    #[error(
+        "all {rows} rows have the time {time} s and the same numbers; expected increasing times. hint: export again"
+    )]
+    OneTime {
+        /// Number of rows.
+        rows: usize,
+        /// Their time [s].
+        time: f64,
     },
     /// A long time without any row.
     #[error(
@@ -196,8 +218,8 @@ pub enum MotionError {
     },
     /// A range without a recorded frame.
     #[error(
-        "the range from {from_s} s to {to_s} s is outside of the recorded time, {first_s:.3} s to {last_s:.3} s. hint: \
-         choose a range inside the recorded time"
+        "{} is outside of the recorded time, {first_s:.3} s to {last_s:.3} s. hint: choose a range inside the recorded \
+         time", outside([*from_s, *to_s], *last_s)
     )]
     Outside {
         /// Start of the requested range [s].
@@ -209,7 +231,7 @@ pub enum MotionError {
         /// End of the recording [s].
         last_s: f64,
     },
-    /// Motion and forces with hardly any common time.
+    /// Motion and forces with almost no common time.
     #[error(
         "motion and forces have {} in common: the motion lasts from {:.3} s to {:.3} s, the forces from {:.3} s to \
          {:.3} s. hint: give both the same origin of time, or choose the forces of this trial",
@@ -274,6 +296,17 @@ impl MotionError {
             }
             other => other,
         }
+    }
+}
+
+/// The end of a range that is outside of a recording, which sets the other one; or the range, if both are outside.
+fn outside([from_s, to_s]: [f64; 2], last_s: f64) -> String {
+    if from_s <= to_s {
+        format!("the range from {from_s} s to {to_s} s")
+    } else if from_s > last_s {
+        format!("the start of the range, {from_s} s,")
+    } else {
+        format!("the end of the range, {to_s} s,")
     }
 }
 

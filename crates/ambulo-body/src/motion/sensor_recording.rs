@@ -21,7 +21,7 @@ pub struct SensorRecording {
 pub struct SensorPath {
     /// Name.
     pub name: String,
-    /// Rotation `earth_from_sensor` at each time; `None` where the sensor sent nothing.
+    /// Rotation `earth_from_sensor` at each time; `None` without data of the sensor.
     pub orientations: Vec<Option<Mat3>>,
 }
 

@@ -11,7 +11,7 @@
 //! Rotations may also be matrices of three by three numbers. The numbers of other representations have no agreed order
 //! (quaternions with w first or last, six numbers of two rows or of two columns), so that they are refused by name.
 //!
-//! A rotation turns the axes of a joint from those of its parent; in the resting pose, a T, all are x to the left, y
+//! A rotation turns the axes of a joint relative to its parent; in the resting pose, a T, all are x to the left, y
 //! up, z forward. The file has no lengths: they come from the user's own SMPL file, J = R (v + S beta) with its joint
 //! regressor R, vertices v and shapes S, or else from the built-in body of a stature. Then the pelvis joint lies at
 //! mid-hip, and the spine is divided evenly.
@@ -95,7 +95,7 @@ pub struct SmplMotion {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmplBody {
     joints: [Vec3; JOINTS],
-    /// From the ball of the foot to the tip of the toes [m].
+    /// Distance from the ball of the foot to the tip of the toes [m].
     ball_to_toe: f64,
     /// Where the lengths come from, in words.
     statement: String,
@@ -135,7 +135,7 @@ pub enum SmplError {
     NoNumbers {
         /// The array.
         array: String,
-        /// Its type.
+        /// Type of the array.
         found: String,
     },
     /// An array of another shape.
@@ -143,7 +143,7 @@ pub enum SmplError {
     Shape {
         /// The array.
         array: String,
-        /// Its shape.
+        /// Shape of the array.
         found: Vec<usize>,
         /// Allowed values.
         expected: &'static str,
@@ -165,7 +165,7 @@ pub enum SmplError {
     NoRotation {
         /// The array.
         array: String,
-        /// What the numbers are.
+        /// Description of the numbers.
         found: String,
         /// Allowed values.
         expected: &'static str,
@@ -329,7 +329,7 @@ fn first<'n>(npz: &'n Npz, aliases: &[&'static str]) -> Result<(&'static str, Sh
 
 /// Shapes of the arrays of a motion.
 struct Layout {
-    /// Of all joints, or of the pelvis and the other joints.
+    /// Rotations of all joints, or of the pelvis and of the other joints.
     rotations: Vec<(Rotations, usize)>,
     places: &'static str,
     frames: usize,

@@ -2,7 +2,7 @@
 //!
 //! Their names are not standardised. Vicon's programs write `PROCESSING:Bodymass` [kg], `PROCESSING:Height` [mm] and
 //! the measurements of Plug-in-Gait [mm]; the samples of c3d.org have `SUBJECT:WEIGHT` [kg] and `SUBJECT:HEIGHT`, whose
-//! unit field contradicts its value. The unit of a stature is therefore inferred from its size: people are 0.3 to 3 m
+//! unit field contradicts its value. The unit of a stature is therefore inferred from its size: persons are 0.3 to 3 m
 //! tall.
 
 use ambulo_formats::c3d::C3d;

@@ -111,14 +111,45 @@ impl Window {
 #[inline]
 #[must_use]
 pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
-    let after = times.partition_point(|&x| x <= t);
-    if after == 0 {
-        return values.first().copied().unwrap_or(f64::NAN);
+    Between::of(times, t).value(values)
+}
+
+/// Place of a time between samples: found once for all columns of a recording.
+#[derive(Debug, Clone, Copy)]
+pub enum Between {
+    /// At one sample, or beyond the ends.
+    Sample(usize),
+    /// Before sample `after`, as this share of the way from the sample in front of it.
+    Samples {
+        /// Number of the later sample.
+        after: usize,
+        /// Share of the interval, 0 to 1.
+        share: f64,
+    },
+}
+
+impl Between {
+    /// The place of `t` among `times`, which increase.
+    #[inline]
+    #[must_use]
+    pub fn of(times: &[f64], t: f64) -> Between {
+        match times.partition_point(|&x| x <= t) {
+            0 => Between::Sample(0),
+            after if after == times.len() => Between::Sample(after - 1),
+            after => {
+                let (t0, t1) = (times[after - 1], times[after]);
+                Between::Samples { after, share: (t - t0) / (t1 - t0) }
+            }
+        }
     }
-    if after == times.len() {
-        return values[after - 1];
+
+    /// The interpolated value of a column; not-a-number of one without samples.
+    #[inline]
+    #[must_use]
+    pub fn value(self, values: &[f64]) -> f64 {
+        match self {
+            Between::Sample(at) => values.get(at).copied().unwrap_or(f64::NAN),
+            Between::Samples { after, share } => values[after - 1] * (1.0 - share) + values[after] * share,
+        }
     }
-    let (t0, t1) = (times[after - 1], times[after]);
-    let share = (t - t0) / (t1 - t0);
-    values[after - 1] * (1.0 - share) + values[after] * share
 }

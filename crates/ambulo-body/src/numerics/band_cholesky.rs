@@ -6,12 +6,19 @@
 //! | `width` | w       | bands below the diagonal                        |
 //! | `rows`  | Aᵢ,ᵢ₋w₊ₖ | `rows[i * (w + 1) + k]`, k = 0..=w, diagonal last |
 //!
+//! Four rows are eliminated side by side, one lane per row, four columns at once; every sum has the order of the columns.
+//!
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified).
 //! Cost: rows times w² for the factors, rows times 4 w for a solution.
 //! Not handled: pivoting. `factor` returns `None` if the matrix is not positive definite.
 //! Pinned by: tests/numerics_band_cholesky.rs, tests/marker_gaps.rs
 
-/// Entries of a row that are eliminated side by side.
+use pulp::{Arch, Simd, WithSimd};
+use std::array;
+
+/// Rows that are eliminated side by side, one per lane.
+const ROWS: usize = 4;
+/// Columns that are eliminated side by side.
 const TOGETHER: usize = 4;
 /// Parts of a sum that a processor adds at once.
 const LANES: usize = 8;
@@ -63,54 +70,128 @@ impl BandMatrix {
     /// Factors the matrix; `None` if it is not positive definite.
     #[must_use]
     pub fn factor(mut self) -> Option<BandFactor> {
-        let (w, stride) = (self.width, self.width + 1);
-        for i in 0..self.size {
-            let (above, rest) = self.rows.split_at_mut(i * stride);
-            let row = &mut rest[..stride];
-            let first = i.saturating_sub(w);
-            let mut j = first;
-            while j + TOGETHER <= i {
-                eliminate_together(row, above, [i, j, first], w);
-                j += TOGETHER;
-            }
-            for j in j..i {
-                // Columns from `first` on are common to rows i and j.
-                let other = &above[j * stride..(j + 1) * stride];
-                let (a, b) = (&row[w + first - i..w + j - i], &other[w + first - j..w]);
-                let known: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-                row[w + j - i] = (row[w + j - i] - known) / other[w];
-            }
-            let square: f64 = row[w - (i - first)..w].iter().map(|x| x * x).sum();
-            let pivot = row[w] - square;
-            if !(pivot > 0.0 && pivot.is_finite()) {
-                return None;
-            }
-            row[w] = pivot.sqrt();
+        let is_positive = Arch::new().dispatch(Elimination(&mut self));
+        is_positive.then_some(BandFactor(self))
+    }
+
+    /// The row from this column to its diagonal.
+    #[inline(always)]
+    fn until_diagonal(&self, row: usize, from: usize) -> &[f64] {
+        &self.rows[self.at(row, from)..=self.at(row, row)]
+    }
+
+    /// Eliminates the rows from `top` on, as many as there are lanes; false if the matrix is not positive definite.
+    /// `columns` is scratch memory of w + [`ROWS`] columns.
+    #[inline(always)]
+    fn eliminate_rows(&mut self, top: usize, columns: &mut [[f64; ROWS]]) -> bool {
+        let first = top.saturating_sub(self.width);
+        let above = top - first;
+        let columns = &mut columns[..above + ROWS];
+        self.copy_rows(top, first, columns);
+        let mut at = 0;
+        while at + TOGETHER <= above {
+            let rows: [&[f64]; TOGETHER] = array::from_fn(|c| self.until_diagonal(first + at + c, first));
+            eliminate_columns(columns, at, rows);
+            at += TOGETHER;
         }
-        Some(BandFactor(self))
+        for at in at..above {
+            eliminate_columns(columns, at, [self.until_diagonal(first + at, first)]);
+        }
+        if !eliminate_own(columns, above) {
+            return false;
+        }
+        for row in top..self.size.min(top + ROWS) {
+            for column in row.saturating_sub(self.width)..=row {
+                let place = self.at(row, column);
+                self.rows[place] = columns[column - first][row - top];
+            }
+        }
+        true
+    }
+
+    /// Copies the rows from `top` on, one per lane; zero outside of the band, the unit matrix below the last row.
+    #[inline(always)]
+    fn copy_rows(&self, top: usize, first: usize, columns: &mut [[f64; ROWS]]) {
+        columns.fill([0.0; ROWS]);
+        for (lane, row) in (top..top + ROWS).enumerate() {
+            if row >= self.size {
+                columns[row - first][lane] = 1.0;
+                continue;
+            }
+            let start = row.saturating_sub(self.width);
+            let own = &mut columns[start - first..=row - first];
+            own.iter_mut().zip(self.until_diagonal(row, start)).for_each(|(column, value)| column[lane] = *value);
+        }
     }
 }
 
-/// Entries j to j + [`TOGETHER`] of row i of the factor. Their sums run side by side, which a processor does at once,
-/// each in the same order as alone.
-fn eliminate_together(row: &mut [f64], above: &[f64], [i, j, first]: [usize; 3], w: usize) {
-    let stride = w + 1;
-    let others: [&[f64]; TOGETHER] = std::array::from_fn(|c| &above[(j + c) * stride..(j + c + 1) * stride]);
-    let common = j - first;
-    let parts: [&[f64]; TOGETHER] =
-        std::array::from_fn(|c| &others[c][w + first - (j + c)..w + first - (j + c) + common]);
-    let mut sums = [-0.0; TOGETHER];
-    for (k, x) in row[w + first - i..w + j - i].iter().enumerate() {
-        for (sum, part) in sums.iter_mut().zip(&parts) {
-            *sum += x * part[k];
+/// Replaces a matrix by its factor; false if it is not positive definite.
+struct Elimination<'a>(&'a mut BandMatrix);
+
+impl WithSimd for Elimination<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        let mut columns = vec![[0.0; ROWS]; self.0.width + ROWS];
+        (0..self.0.size).step_by(ROWS).all(|top| self.0.eliminate_rows(top, &mut columns))
+    }
+}
+
+/// Computes N columns of the factor in rows that lie below the diagonal of these columns, of which `rows` has the rows.
+/// Every sum has the order of the columns, so that neither N nor the lanes change it.
+#[inline(always)]
+fn eliminate_columns<const N: usize>(columns: &mut [[f64; ROWS]], at: usize, rows: [&[f64]; N]) {
+    let (known, own) = columns.split_at_mut(at);
+    let heads = rows.map(|row| &row[..known.len()]);
+    let mut sums = [[-0.0; ROWS]; N];
+    for (k, column) in known.iter().enumerate() {
+        for c in 0..N {
+            add(&mut sums[c], column, heads[c][k]);
         }
     }
-    for (c, other) in others.iter().enumerate() {
-        for before in 0..c {
-            sums[c] += row[w + j + before - i] * other[w + before - c];
+    for c in 0..N {
+        let divisor = rows[c][at + c];
+        own[c] = array::from_fn(|lane| (own[c][lane] - sums[c][lane]) / divisor);
+        for later in c + 1..N {
+            add(&mut sums[later], &own[c], rows[later][at + c]);
         }
-        let place = w + j + c - i;
-        row[place] = (row[place] - sums[c]) / other[w];
+    }
+}
+
+/// Computes the columns from `above` on, whose diagonals are in these rows; false if the matrix is not positive
+/// definite.
+#[inline(always)]
+fn eliminate_own(columns: &mut [[f64; ROWS]], above: usize) -> bool {
+    for at in (above..above + ROWS).step_by(TOGETHER) {
+        let lane = at - above;
+        let (known, own) = columns.split_at_mut(at);
+        let mut sums = [[-0.0; ROWS]; TOGETHER];
+        for column in known {
+            for c in 0..TOGETHER {
+                add(&mut sums[c], column, column[lane + c]);
+            }
+        }
+        for c in 0..TOGETHER {
+            let pivot = own[c][lane + c] - sums[c][lane + c];
+            if !(pivot > 0.0 && pivot.is_finite()) {
+                return false;
+            }
+            let root = pivot.sqrt();
+            own[c] = array::from_fn(|row| (own[c][row] - sums[c][row]) / root);
+            own[c][lane + c] = root;
+            for later in c + 1..TOGETHER {
+                add(&mut sums[later], &own[c], own[c][lane + later]);
+            }
+        }
+    }
+    true
+}
+
+#[inline(always)]
+fn add(sums: &mut [f64; ROWS], column: &[f64; ROWS], factor: f64) {
+    for (sum, value) in sums.iter_mut().zip(column) {
+        *sum += value * factor;
     }
 }
 
@@ -119,11 +200,8 @@ impl BandFactor {
     pub fn solve(&self, x: &mut [f64]) {
         let BandMatrix { size, width: w, rows } = &self.0;
         let stride = w + 1;
-        for i in 0..*size {
-            let reach = i.min(*w);
-            let row = &rows[i * stride..(i + 1) * stride];
-            let known: f64 = row[w - reach..*w].iter().zip(&x[i - reach..i]).map(|(a, b)| a * b).sum();
-            x[i] = (x[i] - known) / row[*w];
+        for top in (0..*size).step_by(TOGETHER) {
+            self.substitute(top, x);
         }
         for i in (0..*size).rev() {
             let reach = i.min(*w);
@@ -138,6 +216,34 @@ impl BandFactor {
 }
 
 impl BandFactor {
+    /// Solves L y = b for [`TOGETHER`] rows from `top` on. Their sums run side by side, each in the order of the columns.
+    fn substitute(&self, top: usize, x: &mut [f64]) {
+        let BandMatrix { size, width: w, .. } = self.0;
+        let end = size.min(top + TOGETHER);
+        let start = (end - 1).saturating_sub(w).min(top);
+        let mut known = [-0.0; TOGETHER];
+        let rows: [&[f64]; TOGETHER] = array::from_fn(|c| {
+            let row = (top + c).min(end - 1);
+            let first = row.saturating_sub(w);
+            let own = self.0.until_diagonal(row, first);
+            let (head, rest) = own.split_at(start.max(first) - first);
+            head.iter().zip(&x[first..]).for_each(|(a, b)| known[c] += a * b);
+            rest
+        });
+        for (k, value) in x[start..top].iter().enumerate() {
+            for c in 0..TOGETHER {
+                known[c] += rows[c][k] * value;
+            }
+        }
+        for i in top..end {
+            let (c, own) = (i - top, rows[i - top]);
+            let first = i + 1 - own.len();
+            let sum = own[top.max(first) - first..i - first].iter().zip(&x[top.max(first)..i]);
+            let known = sum.fold(known[c], |sum, (a, b)| sum + a * b);
+            x[i] = (x[i] - known) / own[i - first];
+        }
+    }
+
     /// aᵀ A⁻¹ a = |L⁻¹ a|² of a vector with few entries, each with its row: the variance of a sum whose parts have the
     /// covariance A⁻¹. Cost: rows after the first entry times w.
     #[must_use]
@@ -191,7 +297,7 @@ impl BandFactor {
 
 impl BandMatrix {
     /// The product y = A x of the block of rows and columns from `first` on, as many as x has, which is no more than
-    /// w + 1. Each row is read once, for its own entry and for those of the columns.
+    /// w + 1. Each row is read once, for its own entry of y and for the entries of the columns.
     fn multiply(&self, first: usize, x: &[f64], y: &mut [f64]) {
         for (i, own) in x.iter().enumerate() {
             let start = self.at(first + i, first);

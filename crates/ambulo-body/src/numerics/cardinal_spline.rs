@@ -1,4 +1,4 @@
-//! Cardinal B-splines: those of uniform knots, of any degree up to five.
+//! Cardinal B-splines: B-splines on uniform knots, of any degree up to five.
 //!
 //! With w_d(j) the cardinal B-splines of degree d that are not zero at position u of a knot interval, ordered by their
 //! start,

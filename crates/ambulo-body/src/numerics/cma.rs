@@ -1,5 +1,5 @@
-//! The evolution strategy with covariance matrix adaptation (CMA-ES): minimises a function of some numbers of which
-//! nothing but values is known.
+//! The evolution strategy with covariance matrix adaptation (CMA-ES): minimises a function of some numbers without
+//! derivatives.
 //!
 //! Each generation draws λ candidates from the normal distribution with mean m and covariance σ² C, and moves the
 //! distribution to the better half:
@@ -34,7 +34,7 @@ use crate::numerics::elementary::{exp, ln, powf, powi};
 /// Least eigenvalue of C relative to its largest: beyond it rounding decides.
 const LEAST_EIGENVALUE: f64 = 1e-20;
 
-/// The state of an evolution strategy: plain numbers, from which it continues as if it had not been interrupted.
+/// The state of an evolution strategy. It can be saved; the search then continues with the same results.
 ///
 /// ```
 /// use ambulo_body::numerics::Cma;
@@ -138,7 +138,7 @@ impl Cma {
         self.generations
     }
 
-    /// Whether a state that was read from a file is valid for so many unknowns.
+    /// Whether a state that was read from a file is valid for this number of unknowns.
     #[must_use]
     pub fn is_valid(&self, count: usize) -> bool {
         let lengths = [self.mean.len(), self.path_sigma.len(), self.path.len()];
@@ -165,7 +165,7 @@ impl Cma {
     }
 
     /// Moves the distribution by the costs of the candidates of [`Cma::ask`]. A cost that is not finite is larger than
-    /// any other; a generation without a finite one changes nothing.
+    /// any other; a generation without a finite cost has no effect.
     pub fn tell(&mut self, candidates: &[Vec<f64>], costs: &[f64]) {
         self.generations += 1;
         let rank = |k: usize| costs.get(k).copied().filter(|cost| cost.is_finite()).unwrap_or(f64::INFINITY);

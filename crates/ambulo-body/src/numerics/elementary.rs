@@ -9,7 +9,7 @@
 //!
 //! Source: the crate `libm`, a translation of the mathematical libraries of FreeBSD and musl (its feature `arch`, which
 //! takes instructions of the processor, changes only correctly rounded functions); sine and cosine are in
-//! `numerics::sin_cos`. Errors are below 1 unit in the last place, those of [`powi`] grow with the exponent.
+//! `numerics::sin_cos`. Errors are below 1 unit in the last place; errors of [`powi`] grow with the exponent.
 //! `clippy.toml` forbids the functions of the standard library.
 //! Pinned by: tests/numerics_elementary.rs, with values of 50 digits, and a checksum of the bits of all functions.
 
@@ -131,8 +131,8 @@ pub fn hypot(x: f64, y: f64) -> f64 {
     if SAFE.contains(&square) { square.sqrt() } else { libm::hypot(x, y) }
 }
 
-/// xⁿ by products, for an exponent that is computed; the standard library gives another result when the compiler knows
-/// both numbers.
+/// xⁿ by products, for a computed exponent. (The result of the standard library changes when the compiler knows both
+/// numbers.)
 #[inline]
 #[must_use]
 pub fn powi(x: f64, n: i32) -> f64 {

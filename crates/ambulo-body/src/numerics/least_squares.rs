@@ -134,7 +134,7 @@ pub fn minimise(problem: &mut impl Residuals, x: &mut [f64], iterations: usize) 
     progress
 }
 
-/// A step that lowers the cost; `None` if there is none.
+/// A step that lowers the cost; `None` if no step was found.
 fn step(
     problem: &mut impl Residuals,
     x: &[f64],

@@ -1,10 +1,10 @@
 //! Numerical methods: natural splines and their banded solver, B-splines on uniform knots, band matrices, nonlinear
-//! least squares, evolution strategies, random numbers, statistics, harmonics. Nothing here knows mechanics.
+//! least squares, evolution strategies, random numbers, statistics, harmonics. No mechanics here.
 //!
 //! [`SplineFitter`] is prepared once for a time grid and then fits any number of columns; each fit is a
 //! [`NaturalSpline`], which gives values and derivatives at any time.
 //!
-//! docs/METHODS.md says which spline, filter and linear system is for what.
+//! docs/METHODS.md lists the use of each spline, filter and linear system.
 
 mod band_cholesky;
 mod banded;
@@ -53,7 +53,7 @@ pub use uniform_spline::UniformSplines;
 #[doc(hidden)]
 pub use whittaker::Whittaker;
 
-/// Reads a number that files write as `null` where it is not one.
+/// Reads a number; `null` becomes NaN.
 #[doc(hidden)]
 pub fn or_nan<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))

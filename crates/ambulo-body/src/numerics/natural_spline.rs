@@ -36,7 +36,7 @@ pub enum SplineError {
         found: usize,
         /// Fewest samples allowed, 2m.
         allowed: usize,
-        /// Degree asked for, 2m-1.
+        /// Requested degree, 2m-1.
         degree: usize,
     },
     /// A time is not a finite number.
@@ -102,7 +102,7 @@ pub enum SplineError {
     Uneven {
         /// Time at which the factorisation failed (s).
         time: f64,
-        /// Degree asked for.
+        /// Requested degree.
         degree: usize,
     },
 }

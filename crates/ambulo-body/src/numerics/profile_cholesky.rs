@@ -3,7 +3,7 @@
 //! A = L Lᵀ, where row i of L begins in the same column as row i of A. Examples are band matrices, and band matrices
 //! with a border of full rows.
 //!
-//!   L_ij = (A_ij - Σ_k L_ik L_jk) / L_jj        L_ii = √(A_ii - Σ_k L_ik²)        k from the later of both beginnings to j - 1
+//!   L_ij = (A_ij - Σ_k L_ik L_jk) / L_jj    L_ii = √(A_ii - Σ_k L_ik²)    k from the later of both beginnings to j - 1
 //!
 //! Neighbouring rows that begin in the same column are factored side by side, one lane per row, so that every entry is
 //! a sum in the order of k. Sums of the solution have eight parts, one per lane, added in a fixed order. So the result
@@ -21,7 +21,7 @@ use std::array;
 #[derive(Debug, Clone)]
 pub struct ProfileMatrix {
     first: Vec<usize>,
-    /// Where each row begins in `entries`.
+    /// Index in `entries` at which each row begins.
     starts: Vec<usize>,
     entries: Vec<f64>,
 }
@@ -116,7 +116,7 @@ struct Panel {
     rows: usize,
     /// The column in which the rows begin.
     begin: usize,
-    /// One entry per lane, column after column.
+    /// Entries of the columns, one after the other; each has one entry per lane.
     entries: Vec<f64>,
 }
 

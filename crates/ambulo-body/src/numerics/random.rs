@@ -23,7 +23,7 @@ impl Random {
         Random::seeded(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03))
     }
 
-    /// From 0 to below 1.
+    /// A number from 0 to below 1.
     #[inline]
     pub fn share(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -19,7 +19,7 @@
 //! Everything is computed from time differences, never from τ itself, so a late start of the clock costs no digits.
 //! The mean step as unit keeps all entries near 1 at any sampling rate.
 //!
-//! Source: derived here; the formulation is that of Reinsch 1967, Numer. Math. 10:177-183, and of F.R. de Hoog,
+//! Source: derived here; the formulation follows Reinsch 1967, Numer. Math. 10:177-183, and F.R. de Hoog,
 //! M.F. Hutchinson 1987, Numer. Math. 50:311-319 (both unverified). The objective is Woltring's, and so is p.
 //! Cost: linear in samples, about m³ each, once per grid; then about 3m² per sample and column.
 //! Pinned by: tests/splines.rs

@@ -35,7 +35,7 @@ impl Pose {
         Pose { rotation, translation: -(rotation * self.translation) }
     }
 
-    /// `self * frame`, without a product of rotations where the frame has the axes of the one that it is fixed to.
+    /// `self * frame`, without a product of rotations if both frames have the same axes.
     #[must_use]
     #[inline(always)]
     #[doc(hidden)]

@@ -89,8 +89,8 @@ pub fn rotation_vector(r: &Mat3) -> Vec3 {
     m.column(k).into_owned().try_normalize(0.0).map_or(Vec3::zeros(), |u| u * angle)
 }
 
-/// The smallest rotation that brings the direction of `a` to that of `b`. `None` if they are opposite, or if one has no
-/// direction.
+/// The smallest rotation that brings the direction of `a` to the direction of `b`. `None` if they are opposite, or if
+/// one has no direction.
 #[must_use]
 pub fn rotation_between(a: &Vec3, b: &Vec3) -> Option<Mat3> {
     let (a, b) = (a.try_normalize(0.0)?, b.try_normalize(0.0)?);

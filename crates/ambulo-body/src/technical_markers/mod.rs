@@ -54,7 +54,7 @@ const CLEARLY: f64 = 1.3;
 const OFF_THE_BONE_M: f64 = 0.25;
 /// Smallest number of frames that show with which segment a marker moves.
 const LEAST_FRAMES: usize = 5;
-/// Height above the lumbar joint, as a share of that of the shoulders, above which a marker is on the head: the seventh
+/// Height above the lumbar joint, relative to the shoulders, above which a marker is on the head: the seventh
 /// cervical vertebra is at 1.36, the nose at 1.55.
 const HEAD: f64 = 1.5;
 /// Number of markers that determine a trunk, so that the head, which moves on it, is not needed.

@@ -10,6 +10,7 @@ use ambulo::job::{
     Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, ForceFiles, HeadingAxis, Job, MarkerFitting, ModelChoice,
     PlateFoot, Processing, SensorStatements,
 };
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::Window;
@@ -164,7 +165,7 @@ pub(crate) struct ForcesArgs {
     pub(crate) print: PrintArgs,
 }
 
-/// What is written of a run.
+/// Settings of the files that a run writes.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
     /// How angles of pelvis and hips are measured.
@@ -232,16 +233,30 @@ impl ForcesArgs {
   ambulo forces demo/input/walk.c3d --static demo/input/standing.c3d --mass 75 --height 1.75 --person person.toml -o out
 
 Errors of predicted ground forces are similar in all trials of a person. The trials show one person walking
-over force plates, each foot on a separate plate. They are predicted and compared with the plates. FILE has the
+over force plates, each foot on a separate plate: files that `forces` takes, with the plates inside, or with a
+table of forces for each (--grf or --loads, once per trial and in the same order). They are predicted and compared with the plates. FILE has the
 mean difference over the stance for each foot, and the size of the person, so that predictions of other persons
 are refused. One trial is enough; more are better (docs/GROUND_FORCES.md).")]
 pub(crate) struct CalibrateArgs {
-    /// Trials of one person walking over force plates (.c3d).
+    /// Trials of one person walking over force plates: .c3d, or .trc, .mot and others with --grf or --loads.
     #[arg(required = true)]
     pub(crate) trials: Vec<PathBuf>,
     /// The body as an OpenSim model (.osim) [default: the built-in body].
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
+    /// Measured ground forces of a trial: .mot, .sto or .csv; once per trial, in the order of the trials [default: the
+    /// force plates in the trials].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) grf: Vec<PathBuf>,
+    /// OpenSim external loads of a trial (.xml): which columns act on which body; once per trial.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["right", "left"])]
+    pub(crate) loads: Vec<PathBuf>,
+    /// Body and column prefix of the right foot, such as calcn_r:ground_force_
+    #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
+    pub(crate) right: Option<FootColumns>,
+    /// Body and column prefix of the left foot, such as calcn_l:1_ground_force_
+    #[arg(long, value_name = "BODY:PREFIX", requires = "grf")]
+    pub(crate) left: Option<FootColumns>,
     #[command(flatten)]
     pub(crate) subject: SubjectArgs,
     /// File for the calibration; an existing one is only overwritten with --force.
@@ -262,8 +277,10 @@ impl CalibrateArgs {
     /// The request that the options describe.
     pub(crate) fn request(&self) -> CalibrateRequest {
         let model = self.model.clone().map(ModelChoice::from);
-        let job = Job { model, settings: self.subject.settings(), ..self.subject.clone().job() };
-        CalibrateRequest { trials: self.trials.clone(), job, output: self.output.clone() }
+        let forces = ForceFiles { right: self.right.clone(), left: self.left.clone(), ..ForceFiles::default() };
+        let job = Job { model, forces, settings: self.subject.settings(), ..self.subject.clone().job() };
+        let (trials, tables, loads) = (self.trials.clone(), self.grf.clone(), self.loads.clone());
+        CalibrateRequest { trials, tables, loads, job, output: self.output.clone() }
     }
 }
 
@@ -292,6 +309,10 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
+    /// The same person in a movement of hips and knees (.c3d, .trc), which shows the hip centres and knee axes of the
+    /// built-in body (docs/MARKERS.md).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) functional: Option<PathBuf>,
     /// The person in recordings of several people: the prefix of the marker names, as Anna for Anna:LASI [default: such
     /// recordings are refused].
     #[arg(long, value_name = "NAME")]
@@ -329,6 +350,15 @@ pub(crate) struct SubjectArgs {
     /// for markers, trajectory for keypoints of video].
     #[arg(long, value_name = "METHOD", value_parser = one_of(&MarkerFitting::ALL))]
     pub(crate) fit: Option<MarkerFitting>,
+    /// Centres of the hips of the built-in body: harrington (pelvis width and depth), hara (leg length), bell (pelvis
+    /// width) or plug-in-gait (Davis; leg length, pelvis width). docs/MARKERS.md has the equations and their errors.
+    #[arg(long, value_name = "NAME", default_value = HipRegression::default().word(),
+        value_parser = one_of(&HipRegression::ALL))]
+    pub(crate) hip: HipRegression,
+    /// Axes of the knees of the built-in body: those of the markers, or turned so that varus follows flexion least in
+    /// the recording.
+    #[arg(long, value_name = "NAME", default_value = KneeAxis::default().word(), value_parser = one_of(&KneeAxis::ALL))]
+    pub(crate) knee_axis: KneeAxis,
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s,
         value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
@@ -353,6 +383,7 @@ impl SubjectArgs {
     fn job(self) -> Job {
         Job {
             standing: self.still,
+            functional: self.functional,
             subject: self.subject,
             size: StatedSize { mass_kg: self.mass, height_m: self.height },
             segments: self.figure,
@@ -367,6 +398,8 @@ impl SubjectArgs {
         Processing {
             fit: self.fit,
             longest_gap_s: self.max_gap,
+            hip: self.hip,
+            knee_axis: self.knee_axis,
             force_delay_s: self.force_delay,
             ..Processing::default()
         }

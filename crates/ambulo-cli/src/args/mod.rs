@@ -39,7 +39,7 @@ use std::path::PathBuf;
 /// The folder for the results of a run, if none is given.
 pub(crate) const OUT: &str = "out";
 
-/// The same for JSON.
+/// [`OUT`] as the default of a field in JSON.
 pub(crate) fn out() -> PathBuf {
     OUT.into()
 }
@@ -130,18 +130,19 @@ pub(crate) fn with_place_of_options(mut refused: clap::Error) -> clap::Error {
 /// How to treat an existing file that no earlier run wrote.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
-    /// It stays, and nothing is written.
+    /// The file is kept, and nothing is written.
     Kept,
-    /// It is replaced (`--force`).
+    /// The file is replaced (`--force`).
     Replaced,
 }
 
 impl PrintArgs {
-    /// Nothing but errors.
+    /// Prints errors only.
     pub(crate) const QUIET: PrintArgs = PrintArgs { json: false, quiet: true, verbose: false };
 }
 
-// How a request is handled: none of this changes a result. (A doc comment would become that of the subcommand.)
+// How a request is handled: none of this changes a result. (A doc comment here would become the help text of the
+// subcommand.)
 #[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub(crate) struct Handling {
     #[command(flatten)]
@@ -153,7 +154,7 @@ pub(crate) struct Handling {
 }
 
 impl Handling {
-    /// Nothing but errors is printed.
+    /// Prints errors only.
     pub(crate) fn quiet(existing: Existing) -> Handling {
         let replace = ReplaceArgs { force: existing == Existing::Replaced };
         Handling { replace, print: PrintArgs::QUIET, ..Handling::default() }

@@ -18,7 +18,7 @@ pub(crate) struct TrialWords {
     pub(crate) words: Vec<OsString>,
     /// The job of all trials; each has its own recording.
     pub(crate) job: Job,
-    /// What is written of a trial.
+    /// Settings of the files that a trial writes.
     pub(crate) outputs: Outputs,
 }
 
@@ -48,7 +48,7 @@ impl TrialWords {
         TrialWords { words: words(&job, &outputs), job, outputs }
     }
 
-    /// The words with each value in a word of its own: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
+    /// The words with each value as a separate word: `--from=0.5` becomes `--from 0.5`. Both mean the same trial.
     pub(crate) fn apart(&self) -> Vec<OsString> {
         let split = |word: &OsString| -> Vec<OsString> {
             let option = word.to_str().filter(|word| word.starts_with("--")).and_then(|word| word.split_once('='));
@@ -68,6 +68,7 @@ impl TrialWords {
         let number = |number: Option<f64>| number.map(|number| OsString::from(number.to_string()));
         let files = [
             ("--static", path(&trial.standing, job.standing.is_some())),
+            ("--functional", path(&trial.functional, job.functional.is_some())),
             ("--model", path(&trial.model, job.model.is_some())),
             ("--grf", path(&trial.grf, job.forces.table.is_some())),
             ("--loads", path(&trial.loads, job.forces.loads.is_some())),

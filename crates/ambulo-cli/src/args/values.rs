@@ -315,7 +315,7 @@ impl FromStr for Loads {
     }
 }
 
-/// JOINT=SHARE; the library knows the joints and checks the share.
+/// JOINT=SHARE; the library checks both.
 pub(super) fn weakness(text: &str) -> Result<(String, f64), String> {
     let expected = || "expected JOINT=SHARE, such as ankle_r=0.6".to_owned();
     let (joint, share) = text.split_once('=').ok_or_else(expected)?;

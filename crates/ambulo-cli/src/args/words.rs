@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Words, each option and each value in one of its own.
+/// Words; each option and each value is one word.
 pub(super) struct Words(pub(super) Vec<OsString>);
 
 impl Words {
@@ -19,7 +19,7 @@ impl Words {
         self.0.extend(is_given.then(|| option.into()));
     }
 
-    /// A file without an option; its name is never taken for one.
+    /// A file without an option; its name is never read as an option.
     pub(super) fn input(&mut self, path: &Path) {
         let is_like_an_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
         let path = if is_like_an_option { Path::new(".").join(path) } else { path.to_owned() };
@@ -46,7 +46,7 @@ pub(super) fn split(line: &str) -> Vec<OsString> {
     words.into_iter().map(OsString::from).collect()
 }
 
-/// A word as a shell takes it: in quotes if it has other characters than those of usual paths.
+/// A word as a shell takes it: in quotes if it has characters that are unusual in paths.
 pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%=".contains(c);
     let mark = if cfg!(windows) { '"' } else { '\'' };

@@ -1,4 +1,4 @@
-//! A request as the words that state it in the command line.
+//! Converts a request to words of the command line.
 
 use super::words::{Words, quoted, split};
 use super::{Args, Command, DemoArgs, FigureArgs, GaitArgs, Handling, SimulateArgs, WalkArgs, WalkMode, words_of_job};

@@ -1,4 +1,4 @@
-//! `ambulo calibrate`: what force plates show about the predicted ground forces of a person.
+//! `ambulo calibrate`: calibrates the predicted ground forces of a person by force plates.
 
 use super::forces;
 use crate::args::{Handling, Outputs, PrintArgs};
@@ -12,9 +12,8 @@ use anyhow::{Error, Result};
 use std::path::Path;
 
 pub(crate) fn run(request: &CalibrateRequest, how: Handling) -> Result<Completion> {
-    let CalibrateRequest { trials, job, output } = request;
-    let model = job.model_file().map(Path::to_path_buf);
-    let inputs: Vec<_> = trials.iter().chain(&job.standing).chain(&model).cloned().collect();
+    let CalibrateRequest { trials, output, .. } = request;
+    let inputs: Vec<_> = request.files().map(Path::to_path_buf).collect();
     files::check_target(output, &inputs, how.replace.existing())?;
     let person = compute(request, how.print, &Caller::default())?;
     files::write(output, person.to_toml().as_bytes())?;
@@ -24,13 +23,13 @@ pub(crate) fn run(request: &CalibrateRequest, how: Handling) -> Result<Completio
 
 /// The calibration that the trials show.
 pub(crate) fn compute(request: &CalibrateRequest, print: PrintArgs, caller: &Caller) -> Result<PersonalErrors> {
-    let CalibrateRequest { trials, job: of_all, .. } = request;
-    of_all.check()?;
-    let settings = Processing { ground: GroundSettings::Predicted, ..of_all.settings.clone() };
+    let trials = &request.trials;
     let mut outcomes: Vec<Outcome> = Vec::new();
-    for trial in trials {
+    for (trial, of_trial) in trials.iter().zip(request.jobs()?) {
         printer::progress(&format!("predicting {}", trial.display()), print);
-        let job = Job { recording: Some(trial.clone()), settings: settings.clone(), ..of_all.clone() };
+        let settings = Processing { ground: GroundSettings::Predicted, ..of_trial.settings.clone() };
+        let job = Job { settings, ..of_trial };
+        job.check()?;
         outcomes.push(forces::compute(&job, Outputs::default(), caller)?.into_outcome());
     }
     personal_errors(&outcomes).map_err(|error| {

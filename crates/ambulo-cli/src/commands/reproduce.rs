@@ -63,7 +63,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     Ok(if lost.is_empty() { Completion::Passed } else { Completion::Failed })
 }
 
-/// A setting that comes with the program, or that of a file.
+/// A setting that comes with the program, or the setting of a file.
 fn read_setting(path: &Path) -> Result<Setting> {
     if let Some(setting) = path.to_str().and_then(Setting::named) {
         return Ok(setting?);

@@ -40,7 +40,8 @@ impl ResultFolder {
         Ok(folder)
     }
 
-    /// The same, or the folder of `ambulo reproduce` or `ambulo sweep`. Finishes or undoes an interrupted run first.
+    /// Opens the folder of any run: as `open`, and of `ambulo reproduce` and `ambulo sweep`. Finishes or undoes an
+    /// interrupted run first.
     pub(super) fn of_any_run(path: &Path) -> Result<ResultFolder> {
         let shown = path.display();
         refuse_other_paths(path)?;
@@ -79,7 +80,7 @@ impl ResultFolder {
         self.checked(name).map_err(|error| self.first_failure().get_or_insert(error).to_string()).ok()
     }
 
-    /// The content of a recorded file, which must be the one of the run.
+    /// The content of a recorded file; it must not have changed since the run.
     pub(super) fn checked(&self, name: &str) -> Result<Vec<u8>> {
         let path = self.path.join(name);
         if !path.exists() {
@@ -129,7 +130,7 @@ impl ResultFolder {
     }
 }
 
-/// Refuses files and paths where nothing is.
+/// Rejects files, and paths that do not exist.
 fn refuse_other_paths(path: &Path) -> Result<()> {
     let shown = path.display();
     if path.is_file() {

@@ -18,7 +18,7 @@ use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Results: the same tables, summary and page as the files of a result folder, computed when they are asked for.
+/// Results: the same tables, summary and page as the files of a result folder, computed on request.
 pub struct Results(Content);
 
 enum Content {

@@ -25,7 +25,7 @@ pub(super) type MoreFiles = dyn Fn(&[OutputFile<'_>]) -> Result<Vec<OutputFile<'
 pub(crate) struct MotionRun {
     pub(super) outcome: Outcome,
     pub(super) input: Input,
-    /// How angles of pelvis and hips are measured.
+    /// Convention of the angles of pelvis and hips.
     pub(super) convention: Convention,
     /// How a synthetic walk was computed.
     pub(super) walk: Option<WalkSummary>,

@@ -36,7 +36,7 @@ pub(crate) struct SceneRun {
     pub(super) written: Vec<OutputFile<'static>>,
     /// Without the list of files.
     pub(super) summary: SceneSummary,
-    /// To go on from.
+    /// State from which the simulation continues.
     state: SavedState,
     keep: Keep,
     /// Every file that was read; the scene is the first.

@@ -142,7 +142,7 @@ struct Sweep {
     gait: Gait,
     build: Build,
     mode: SyntheticMode,
-    /// Of all walks, apart from slope and load.
+    /// Conditions of all walks, apart from slope and load.
     conditions: WalkConditions,
     points: Vec<SweptConditions>,
     load: Option<Load>,
@@ -203,7 +203,7 @@ impl Sweep {
         let build = Build { mass: point.mass_kg, height: point.height_m, ..self.build };
         let leg_length = build.human()?.dimensions.leg_length;
         if SyntheticMode::of(&gait, &build, leg_length) != SyntheticMode::Optimal {
-            // A speed that is none has its own error.
+            // An invalid speed has its own error.
             Walk::new(&gait, leg_length, &mut findings)?;
             let [slowest, fastest] = walking_speeds(leg_length);
             bail!(

@@ -49,7 +49,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
         gains: gains.iter().map(|gain| gain.name.to_owned()).collect(),
         tuning: Tuning::new(&gains, pushes),
     };
-    // A run that ended before its first generation has saved nothing, so that it begins anew.
+    // A run that ended before its first generation has saved no state, so the search restarts.
     let saved = if args.resume && state.exists() { saved.resumed(&state)? } else { saved };
     let run = TuneRun { args, problem: &problem, torques: figure.torques, state, saved };
     run.finish()?;

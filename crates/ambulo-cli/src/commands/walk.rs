@@ -204,7 +204,7 @@ pub(super) struct SyntheticRun<'a> {
     pub(super) walk: &'a SyntheticWalk,
     pub(super) walk_settings: &'a SyntheticWalkSettings<'a>,
     pub(super) thresholds: Thresholds,
-    /// How angles of pelvis and hips are measured.
+    /// Convention of the angles of pelvis and hips.
     pub(super) convention: Convention,
     pub(super) read: Vec<PathBuf>,
     pub(super) caller: &'a Caller,

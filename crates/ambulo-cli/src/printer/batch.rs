@@ -1,4 +1,4 @@
-//! Prints what `batch` found and computed.
+//! Prints the trials and the results of `batch`.
 
 use super::{plural, print_json, print_line, say};
 use crate::args::PrintArgs;
@@ -52,7 +52,7 @@ impl BatchRow {
     }
 }
 
-/// How many trials there are of each kind.
+/// Numbers of trials by kind.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct BatchCounts {
     pub(crate) trials: usize,
@@ -77,7 +77,7 @@ impl BatchCounts {
     }
 }
 
-/// Prints which trials were found with what, and which files are none.
+/// Prints the trials with their files, and the files that belong to no trial.
 pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], print: PrintArgs) -> Result<()> {
     if print.quiet {
         return Ok(());
@@ -107,7 +107,7 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
     Ok(())
 }
 
-/// Says on standard error how many trials are done, on one line where it is a terminal.
+/// Prints the progress of a batch to standard error, on one line if it is a terminal.
 pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, print: PrintArgs) {
     /// Lines of a long batch that is not followed on a terminal.
     const LINES: usize = 20;
@@ -116,7 +116,7 @@ pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, pr
     }
     let text = format!("{done} of {all} trials, {rate:.1} a second, about {left_s:.0} s left");
     if stderr().is_terminal() {
-        // As in `say`, the batch goes on if this cannot be written.
+        // As in `say`, the batch continues if this cannot be written.
         let _ = write!(stderr(), "\r{text}   {}", if done == all { "\n" } else { "" });
     } else if done.is_multiple_of(all.div_ceil(LINES).max(1)) || done == all {
         say(format_args!("{text}"));

@@ -38,7 +38,7 @@ pub(crate) fn forces(summary: &Summary, output: &Path, print: PrintArgs) -> Resu
         outline(summary)?
     }
     if let Some(quality) = &summary.quality {
-        print_quality(quality, print)?;
+        print_quality(quality, &summary.ground, print)?;
     }
     if let Some(verdict) = &summary.verdict {
         print_verdict(verdict, print)?;
@@ -66,7 +66,7 @@ fn print_mass(summary: &Summary) -> Result<()> {
     print_line(&format!("  mass      {:.2} kg ({}, {state}{plates})", mass.kg, mass.source.words()))
 }
 
-/// The numbers by which a run is recognised as the expected one.
+/// Prints the main numbers of a run: markers, activity, speed, cadence, step length.
 fn outline(summary: &Summary) -> Result<()> {
     if let Some(subject) = &summary.subject {
         subject::print_markers(subject)?;
@@ -114,15 +114,16 @@ fn outline(summary: &Summary) -> Result<()> {
     Ok(())
 }
 
-/// How far the motion was changed until feet on the ground supplied its external forces.
+/// Prints the changes by which tracking made feet on the ground supply the external forces.
 fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
-    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, .. } = tracking;
+    let TrackingSummary { residual_peak, rotations_rms_deg, root_rms_mm, steps, largest_change_deg, hands_mm, .. } =
+        tracking;
     let largest = largest_change_deg.iter().max_by(|a, b| a.1.total_cmp(b.1));
     let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
+    let hands = hands_mm.map_or_else(String::new, |mm| format!(", a hand by at most {mm:.0} mm"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms, residual at most \
-         {:.3} \
-         % of body weight, {steps} steps",
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual at \
+         most {:.3} % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
 }
@@ -172,10 +173,11 @@ fn details(summary: &Summary) -> Result<()> {
     summary.comparison.as_ref().map_or(Ok(()), comparison::print)
 }
 
-/// Prints whether the data are good, and the strongest reasons why not.
-fn print_quality(quality: &Quality, print: PrintArgs) -> Result<()> {
+/// Prints whether the data are good, and the strongest reasons why not; good data may be those of one leg only.
+fn print_quality(quality: &Quality, ground: &Ground, print: PrintArgs) -> Result<()> {
     let count = quality.reasons.len();
-    print_line(&format!("  quality   {}{}", quality.state.word(), counted_reasons(count)))?;
+    let but = ground.unmeasured_leg().filter(|_| count == 0).map_or_else(String::new, |leg| format!(", but {leg}"));
+    print_line(&format!("  quality   {}{}{but}", quality.state.word(), counted_reasons(count)))?;
     let shown = quality.reasons.iter().take(reasons_shown(count, print));
     shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.state.word(), reason.message)))
 }
@@ -240,12 +242,12 @@ fn print_ground(summary: &Summary) -> Result<()> {
     print_shares(&summary.ground)
 }
 
-/// Of which share of each leg's loaded time the load was measured, if it was not all of it.
+/// Prints the share of each leg's loaded time with measured load, if it is below 1.
 fn print_shares(ground: &Ground) -> Result<()> {
     ground.shares().map_or(Ok(()), |shares| print_line(&format!("  loads     {shares}")))
 }
 
-/// Prints which checks of a prediction passed, with the values of those that failed.
+/// Prints the passed checks of a prediction, and the failed checks with their values.
 fn print_checks(checks: &[PredictionCheck]) -> Result<()> {
     let of = |passed: Option<bool>| checks.iter().filter(move |check| check.passed == passed);
     let names = |passed: Option<bool>| of(passed).map(|check| &*check.name).collect::<Vec<_>>().join(", ");

@@ -61,13 +61,13 @@ fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Prints a line on standard error. The computation goes on if the line cannot be written, for example into a closed
+/// Prints a line on standard error. The computation continues if the line cannot be written, for example into a closed
 /// pipe.
 fn say(line: Arguments<'_>) {
     let _ = writeln!(stderr(), "{}", visible(&line.to_string()));
 }
 
-/// Whether a character could change the terminal or what the text around it seems to say: a control code, or a mark
+/// Whether a character could change the terminal or how the text around it reads: a control code, or a mark
 /// that changes the direction of writing or is invisible (Unicode, UAX #9, bidirectional formatting characters).
 pub(crate) fn is_code(c: char) -> bool {
     let is_hidden =
@@ -88,7 +88,7 @@ pub(crate) fn refused(text: &str) -> std::io::Result<()> {
     write!(stderr(), "{}", visible(text))
 }
 
-/// A line of its own.
+/// Prints one line.
 pub(crate) fn line(text: &str) -> Result<()> {
     print_line(text)
 }
@@ -158,7 +158,7 @@ pub(crate) fn states(
         return if print.quiet { Ok(()) } else { states_as_json(&table, &changes, findings) };
     }
     let lines = ChangeTable::of(walk);
-    // Nothing is printed of a gait that is refused, so the machines come with the first change.
+    // A rejected gait prints nothing, so machines are printed with the first change.
     let heading = || {
         print_findings(findings.as_slice());
         print_line(&format!("{}\n\n{}", table.trim_end(), lines.header()))
@@ -186,7 +186,7 @@ pub(crate) fn stream_description(description: &impl serde::Serialize) -> Result<
     print_json(description)
 }
 
-/// Prints a line about a stream that goes on.
+/// Prints a line about a running stream.
 pub(crate) fn stream_line(line: &str) {
     say(format_args!("{}", visible(line)));
 }
@@ -200,7 +200,7 @@ fn print_findings(findings: &[Finding]) {
     }
 }
 
-/// Prints the first warnings, and how many warnings and notes there are besides.
+/// Prints the first warnings, and the number of further warnings and notes.
 fn print_warnings(findings: &[Finding]) {
     /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.
     const MOST: usize = 4;
@@ -240,7 +240,7 @@ fn counted_reasons(count: usize) -> String {
     if count == 0 { String::new() } else { format!(", {count} reason{}", plural(count)) }
 }
 
-/// How many of them are printed; all are in summary.json.
+/// Number of reasons that are printed; all are in summary.json.
 fn reasons_shown(count: usize, print: PrintArgs) -> usize {
     if print.verbose { count } else { count.min(3) }
 }

@@ -38,7 +38,7 @@ pub(crate) fn reproduce(claims: &[Claim], others: &[Sensitivity], output: &Path,
     print_line(&format!("  written   {}", output.display()))
 }
 
-/// Criteria that were changed, with their reasons and what they gave before.
+/// Prints changed criteria, with their reasons and earlier results.
 fn changed_criteria(claims: &[Claim]) -> Result<()> {
     let [held, all] = former_tally(claims);
     print_line(&format!("  by the first criteria: {held} of {all}. Changes:"))?;

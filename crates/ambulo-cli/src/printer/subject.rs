@@ -1,11 +1,8 @@
 //! Prints how the body and its motion were obtained from markers.
 
 use super::print_line;
-use ambulo_results::{EventAgreementSummary, MarkerErrorSummary, PlateContactSummary, SubjectSummary};
+use ambulo_results::{EventAgreementSummary, PlateContactSummary, SubjectSummary};
 use anyhow::Result;
-
-/// Markers listed: those with the largest errors.
-const NAMED: usize = 4;
 
 pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
     print_line(&format!("  axes      {}", subject.axes))?;
@@ -24,21 +21,20 @@ pub(super) fn print(subject: &SubjectSummary) -> Result<()> {
 
 /// Prints how far the markers are from the body.
 pub(super) fn print_markers(subject: &SubjectSummary) -> Result<()> {
-    print_line(&format!("  markers   {}", markers(subject)))
+    print_line(&format!("  markers   {}", markers(subject)))?;
+    for (region, fit) in &subject.markers.regions {
+        print_line(&format!("            {}: {}", region.words(), subject.markers.region_words(fit)))?;
+    }
+    Ok(())
 }
 
 fn markers(subject: &SubjectSummary) -> String {
-    let mut errors: Vec<&MarkerErrorSummary> =
-        subject.markers.errors.iter().filter(|error| error.rms_mm.is_some()).collect();
-    errors.sort_by(|a, b| b.rms_mm.unwrap_or(0.0).total_cmp(&a.rms_mm.unwrap_or(0.0)));
-    let far: Vec<String> =
-        errors.iter().take(NAMED).map(|e| format!("{} {:.0}", e.name, e.rms_mm.unwrap_or(0.0))).collect();
+    let (used, recorded) = (subject.markers.used, subject.markers.recorded);
+    let of = if recorded > used { format!(" of {recorded}") } else { String::new() };
     let sets =
         if subject.marker_sets.is_empty() { String::new() } else { format!(" ({})", subject.marker_sets.join(", ")) };
     let rms = subject.markers.rms_mm.map_or("-".to_owned(), |mm| format!("{mm:.1} mm"));
-    let recorded = subject.markers.recorded;
-    let of = if recorded > errors.len() { format!(" of {recorded}") } else { String::new() };
-    format!("{}{of}{sets}, {rms} rms from the body; largest {} mm", errors.len(), far.join(", "))
+    format!("{used}{of}{sets}, {rms} rms from the body")
 }
 
 fn on_plate(contact: &PlateContactSummary) -> String {

@@ -13,7 +13,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct ComparedColumn {
     pub(crate) column: String,
-    /// In the column's unit.
+    /// Root-mean-square error, in the column's unit.
     pub(crate) rmse: f64,
     /// RMSE over the mean range; `null` if both are flat.
     pub(crate) rrmse: Option<f64>,

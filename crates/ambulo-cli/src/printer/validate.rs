@@ -1,4 +1,4 @@
-//! Prints what `validate` found.
+//! Prints the outcome of `validate`.
 
 use super::{print_json, print_line};
 use crate::args::PrintArgs;
@@ -12,7 +12,7 @@ use std::path::Path;
 /// Reasons that are printed without `--verbose`.
 const SHOWN: usize = 3;
 
-/// Prints which files are judged with what, and which are not.
+/// Prints the trials with their files, and the files that are not judged.
 pub(crate) fn found_trials(listed: &[ListedTrial], others: &[(String, String)], print: PrintArgs) -> Result<()> {
     if print.quiet {
         return Ok(());

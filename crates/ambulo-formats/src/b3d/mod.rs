@@ -6,7 +6,8 @@
 //! SubjectOnDiskHeader      a message of Protocol Buffers: person, models, markers, one header per trial
 //! for each trial, for each of its frames:
 //!     SubjectOnDiskSensorFrame          in `raw_sensor_frame_size` bytes: what was recorded
-//!     SubjectOnDiskProcessingPassFrame  in `processing_pass_frame_size` bytes, once for each pass of the trial: what was computed
+//!     SubjectOnDiskProcessingPassFrame  in `processing_pass_frame_size` bytes, once for each pass of the trial:
+//!                                       what was computed
 //! ```
 //!
 //! Lengths are metres, angles radians, forces newtons, in axes with y up; the ground acts on the bodies. Positions of
@@ -224,7 +225,7 @@ impl MissingForce {
         "extended to the nearest peak of force",
     ];
 
-    /// Whether the force is missing; its value in the file means nothing then.
+    /// Whether the force is missing; its value in the file is then meaningless.
     #[must_use]
     pub fn is_missing(self) -> bool {
         self.0 != 0

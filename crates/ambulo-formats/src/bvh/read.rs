@@ -27,7 +27,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Bvh, Vec<Remark>
     let joints = read_hierarchy(&mut words)?;
     if let Some(twice) = duplicate(joints.iter().map(|joint| joint.name.as_str())) {
         let message = format!("two or more joints have the same name (first: {})", quoted(twice));
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
     let (stated, frame_time_s) = read_motion_head(&mut words)?;
     let motion = read_frames(words, count_channels(&joints), stated)?;
@@ -39,7 +39,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Bvh, Vec<Remark>
 struct Words<'a> {
     lines: Lines<'a>,
     line: Option<Line<'a>>,
-    /// Where the search for the next word starts in the text of `line` [bytes].
+    /// Byte in the text of `line` at which the search for the next word starts.
     at: usize,
 }
 
@@ -287,10 +287,10 @@ fn read_frames(words: Words<'_>, width: usize, stated: usize) -> Result<Motion, 
     }
     if let Some((line, count)) = unseen {
         let message = format!("{} not-a-number; kept as missing", counted(count, "value"));
-        motion.remarks.push(Remark { line: Some(line), message });
+        motion.remarks.push(Remark::of_line(line, message));
     }
     if motion.frames != stated {
-        motion.remarks.push(Remark { line: None, message: frame_count_message(stated, motion.frames, &lines) });
+        motion.remarks.push(Remark::of_file(frame_count_message(stated, motion.frames, &lines)));
     }
     Ok(motion)
 }

@@ -4,7 +4,7 @@
 //! value = (raw - offset) · scale · general scale          ANALOG:OFFSET, SCALE, GEN_SCALE
 //! ```
 //!
-//! Within a frame, all channels of the first sample come first, then those of the second, and so on.
+//! Within a frame, all channels of the first sample come first, then all channels of the second, and so on.
 //! Source: C3D user guide (c3d.org), "Analog data - integer format".
 
 use super::layout::Layout;

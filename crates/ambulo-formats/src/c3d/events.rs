@@ -56,9 +56,9 @@ impl Event {
 /// Where a file contains an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventPlace {
-    /// In the group EVENT.
+    /// The group EVENT.
     Group,
-    /// In the header. Old programs repeat the events of the group there.
+    /// The header. Old programs repeat the events of the group there.
     Header,
 }
 

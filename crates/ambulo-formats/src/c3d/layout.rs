@@ -7,6 +7,8 @@ use crate::error::{Error, Remark};
 
 /// Largest number of 16 bits.
 const WORD: usize = 65535;
+/// Rates agree if they differ by less, as a share: 29.97 and 30 frames per second do, 50 and 60 do not.
+pub(super) const SAME_RATE: f64 = 0.02;
 
 /// Where the data are, and the structure of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +27,7 @@ pub(super) struct Layout {
 /// Bytes of the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
-    /// All of them.
+    /// Size of the file [bytes].
     pub(super) size: usize,
     /// First byte after the blocks of the parameter section.
     pub(super) after_parameters: usize,
@@ -86,7 +88,7 @@ pub(super) fn decide(
         first_frame: 1,
         point_rate_hz,
     };
-    // Rotations have their own section, usually behind that of the points.
+    // Rotations have their own section, usually after the section of the points.
     let end = rotation_offset(parameters).filter(|&start| start > data_offset).unwrap_or(file.size);
     let room = end.min(file.size).saturating_sub(data_offset);
     let question = Question { header, parameters, scales: &scales, frames: &frame_claims, room };
@@ -144,7 +146,7 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     if let Some(rate) = parameter.filter(usable) {
         // Half a hundredth: both are reals of 24 bits, and headers are often rounded to two digits.
         if usable(&in_header) && (rate - in_header).abs() > 0.005 {
-            remark(remarks, format!("POINT:RATE is {rate} Hz, the header's rate {in_header} Hz; POINT:RATE was used"));
+            return Ok(contradicted_rate(rate, in_header, header, parameters, remarks));
         }
         return Ok(rate);
     }
@@ -157,6 +159,38 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     let found =
         format!("{} and {in_header} in the header", parameter.map_or("nothing".into(), |rate| rate.to_string()));
     Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "a frame rate above zero".into() })
+}
+
+/// The frame rate of a file whose header and `POINT:RATE` differ: the rate of the header if the rate of the
+/// analog channels, over the samples per frame, agrees with it and not with the parameter.
+fn contradicted_rate(
+    parameter: f64,
+    in_header: f64,
+    header: &Header,
+    parameters: &Parameters,
+    remarks: &mut Vec<Remark>,
+) -> f64 {
+    let agree = |a: f64, b: f64| (a / b - 1.0).abs() < SAME_RATE;
+    if agree(parameter, in_header) {
+        let message = format!("POINT:RATE is {parameter} Hz, the header's rate {in_header} Hz; POINT:RATE was used");
+        remark(remarks, message);
+        return parameter;
+    }
+    let samples = f64::from(header.samples_per_frame);
+    let by_channels = parameters.number("ANALOG", "RATE").map(|rate| rate / samples).filter(|rate| rate.is_finite());
+    let (used, chosen) = match by_channels {
+        Some(rate) if agree(rate, in_header) && !agree(rate, parameter) => {
+            (in_header, "the header's rate was used, because ANALOG:RATE agrees with it")
+        }
+        Some(rate) if agree(rate, parameter) => (parameter, "POINT:RATE was used, because ANALOG:RATE agrees with it"),
+        _ => (parameter, "POINT:RATE was used"),
+    };
+    let message = format!(
+        "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every speed \
+         and force depends on it; correct the one that is wrong"
+    );
+    remarks.push(Remark::of_clock(message));
+    used
 }
 
 /// The numbers of frames in header and parameters. A 16-bit number that only lacks the higher bits of a

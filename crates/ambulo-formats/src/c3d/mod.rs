@@ -83,7 +83,7 @@ pub struct C3d {
     pub rotation_rate_hz: f64,
     /// Poses of segments, in the order of the file.
     pub rotations: Vec<Rotation>,
-    /// Events, in the order of the file: those of the parameters, then those of the header.
+    /// Events, in the order of the file: first from the parameters, then from the header.
     pub events: Vec<Event>,
     /// All parameters.
     pub parameters: Parameters,

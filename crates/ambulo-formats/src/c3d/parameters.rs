@@ -8,7 +8,7 @@ use std::fmt;
 /// written, those that repeat its other fields (`POINT:USED`, `ANALOG:RATE`, labels, events ...) are replaced.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Parameters {
-    /// The groups: `POINT`, `ANALOG`, `FORCE_PLATFORM`, `EVENT`, and those of manufacturers.
+    /// The groups: `POINT`, `ANALOG`, `FORCE_PLATFORM`, `EVENT`, and groups of manufacturers.
     pub groups: Vec<Group>,
 }
 
@@ -21,7 +21,7 @@ pub struct Group {
     pub description: String,
     /// Whether the group is locked (its name has a negative length).
     pub locked: bool,
-    /// Its parameters.
+    /// Parameters of the group.
     pub parameters: Vec<Parameter>,
 }
 

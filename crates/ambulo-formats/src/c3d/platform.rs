@@ -145,7 +145,7 @@ fn calibration(parameters: &Parameters, index: usize) -> Result<Vec<Vec<f64>>, E
 }
 
 /// The group FORCE_PLATFORM that describes these platforms. Lists that are shorter than others are filled up with
-/// channel 0 (none) and with zeros in matrices. The baseline is that of the first platform.
+/// channel 0 (none) and with zeros in matrices. The baseline comes from the first platform.
 pub(super) fn group(platforms: &[Platform]) -> Group {
     let count = platforms.len();
     let rows = platforms.iter().map(|platform| platform.channels.len()).max().unwrap_or(0);

@@ -16,7 +16,7 @@ use super::words::{Processor, Words};
 use super::{Encoding, Storage};
 use crate::error::Remark;
 
-/// Which points are read, by all names and the parameters: one value per name.
+/// Choice of the points to read, by all names and the parameters: one value per name.
 pub(super) type Choice<'a> = &'a dyn Fn(&[&str], &Parameters) -> Vec<bool>;
 
 /// The trajectory of one point.

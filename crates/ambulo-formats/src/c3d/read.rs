@@ -67,6 +67,7 @@ fn check_analog_rate(layout: &Layout, parameters: &Parameters, remarks: &mut Vec
     if layout.channels > 0 && (stated - rate).abs() > 1e-3 * rate {
         let samples = layout.samples_per_frame;
         let message = format!("ANALOG:RATE is {stated} Hz, but a frame has {samples} samples; {rate} Hz was used");
-        remarks.push(Remark::of_file(message));
+        let contradicts = (stated / rate - 1.0).abs() > layout::SAME_RATE && remarks.iter().all(|r| !r.is_about_clock);
+        remarks.push(if contradicts { Remark::of_clock(message) } else { Remark::of_file(message) });
     }
 }

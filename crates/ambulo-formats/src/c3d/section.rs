@@ -4,7 +4,8 @@
 //! length of name (negative: locked), number (negative: a group, else the group it belongs to), name,
 //! offset to the next record (counted from this word; 0: the last), then
 //!   group:     length of description, description
-//!   parameter: type (-1 text, 1 byte, 2 integer, 4 real), number of dimensions, dimensions, values, length of description, description
+//!   parameter: type (-1 text, 1 byte, 2 integer, 4 real), number of dimensions, dimensions, values,
+//!              length of description, description
 //! ```
 //!
 //! The offset is unsigned, so a chain only goes forwards and ends with the file at the latest.
@@ -132,8 +133,8 @@ impl Reader<'_> {
         Ok(Some(Record { offset, group: number.unsigned_abs(), content }))
     }
 
-    /// The length of a record. Programs of another processor write it in their own byte order when they change a
-    /// record: then the stated length is not that of the content, and its bytes exchanged are.
+    /// The length of a record. Programs for another processor write it in their own byte order when they change a
+    /// record: then the stated length does not fit the content, and with exchanged bytes it does.
     fn link(&self, stated: u16, is_group: bool) -> u16 {
         let swapped = stated.swap_bytes();
         let is_content = |link: u16| self.content_bytes(is_group).is_some_and(|bytes| bytes == usize::from(link));
@@ -159,8 +160,8 @@ impl Reader<'_> {
         Some((kind, 2 + rank + size(kind, width(kind)?, &dimensions)?))
     }
 
-    /// The byte order of the values of a record whose length is in the other order than `order`: the one in which they
-    /// are usual numbers, or else that of the length.
+    /// The byte order of the values of a record whose length is in the other order than `order`: the order in which
+    /// they are usual numbers, or else the order of the length.
     fn order_of_numbers(&self, order: Processor) -> Processor {
         let other = if order == Processor::Sgi { Processor::Intel } else { Processor::Sgi };
         let Some((kind, end)) = self.values() else { return order };

@@ -80,7 +80,7 @@ fn header(record: &C3d, data_block: u16) -> Result<Vec<u8>, Error> {
 /// Rejects what the format cannot hold, before any byte is written.
 fn check(record: &C3d) -> Result<(), Error> {
     let positive = |what: &str, value: f64| {
-        // As it will be read: VAX reals have nothing below 2^-128.
+        // The value as it will be read: VAX reals below 2^-128 become zero.
         let bytes = record.encoding.processor.f32_bytes(value as f32);
         let written = bytes.map_or(f32::NAN, |bytes| record.encoding.processor.f32(bytes));
         let fine = written.is_finite() && written > 0.0;

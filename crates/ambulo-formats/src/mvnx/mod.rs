@@ -6,13 +6,15 @@
 //!   <subject label="MVN System 1" frameRate="60" segmentCount="23" configuration="FullBody">
 //!     <segments>
 //!       <segment label="Pelvis" id="1">
-//!         <points><point label="jRightHip"><pos_b>0.000 -0.095 0.001</pos_b></point>…</points>     (pos_s in version 3)
+//!         <points><point label="jRightHip"><pos_b>0.000 -0.095 0.001</pos_b></point>…</points>    (pos_s in version 3)
 //!       </segment>…
 //!     </segments>
-//!     <joints><joint label="jRightHip"><connector1>Pelvis/jRightHip</connector1><connector2>RightUpperLeg/jRightHip</connector2></joint>…</joints>
+//!     <joints><joint label="jRightHip">
+//!       <connector1>Pelvis/jRightHip</connector1><connector2>RightUpperLeg/jRightHip</connector2>
+//!     </joint>…</joints>
 //!     <footContactDefinition><contactDefinition label="LeftFoot_Heel" index="0"/>…</footContactDefinition>
 //!     <frames segmentCount="23">
-//!       <frame time="0" type="tpose"> … </frame>                                     (also identity, npose, tpose-isb, npose-isb)
+//!       <frame time="0" type="tpose"> … </frame>                          (also identity, npose, tpose-isb, npose-isb)
 //!       <frame time="0" index="0" type="normal">
 //!         <orientation>w x y z of each segment</orientation>                         (global from segment)
 //!         <position>x y z of the origin of each segment [m]</position>

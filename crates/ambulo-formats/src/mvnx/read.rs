@@ -150,7 +150,7 @@ impl Mvnx {
     }
 }
 
-/// The text without a document type that only names a file; with declarations of its own it stays and is refused.
+/// The text without a document type that only names a file; a document type with declarations is kept and refused.
 fn without_document_type(text: String) -> String {
     const BEGIN: &str = "<!DOCTYPE";
     let Some(start) = text.find(BEGIN) else { return text };

@@ -88,7 +88,7 @@ impl Npz {
 
     /// Reads some arrays of an archive, and of the others type and shape alone: they have no elements, as if they had
     /// been read by [`Npz::shapes`]. Before anything is unpacked, the size of each array is compared with its shape,
-    /// and that of all wanted ones with [`MAX_NUMBERS`].
+    /// and the size of all wanted ones with [`MAX_NUMBERS`].
     ///
     /// # Errors
     /// As [`Npz::read`].

@@ -28,7 +28,7 @@ pub(super) struct Entry {
     pub(super) offset: usize,
 }
 
-/// A part of the bytes that must be there.
+/// A required part of the bytes.
 fn part(bytes: &[u8], offset: usize, count: usize) -> Result<&[u8], Error> {
     offset
         .checked_add(count)

@@ -149,7 +149,7 @@ fn read_linear(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
 
 fn read_step(node: Node<'_, '_>) -> Result<OsimFunction, Error> {
     let number = |tag: &str, default: f64| Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(default));
-    // Documents of older versions have the second names; the defaults are those of OpenSim 4.6.
+    // Documents of older versions have the second names; the defaults follow OpenSim 4.6.
     let time = |tag: &str, older: &str, default: f64| {
         Ok::<f64, Error>(xml::number(node, tag)?.unwrap_or(number(older, default)?))
     };

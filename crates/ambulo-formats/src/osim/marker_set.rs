@@ -68,7 +68,7 @@ impl OsimMarkerSet {
             Some(before) => {
                 let message =
                     format!("marker {} is also on line {}; the later one was used", quoted(&marker.name), before.line);
-                self.remarks.push(Remark { line: Some(marker.line), message });
+                self.remarks.push(Remark::of_line(marker.line, message));
                 *before = marker;
             }
         }
@@ -108,7 +108,7 @@ impl OsimModel {
     /// of the model stay.
     ///
     /// # Errors
-    /// A marker on a body or frame that the model does not have; the line is that of the set's document.
+    /// A marker on a body or frame that the model does not have; the line refers to the set's document.
     pub fn with_marker_set(mut self, set: &OsimMarkerSet) -> Result<OsimModel, Error> {
         for marker in &set.markers {
             let frame = self.frame_at(&marker.frame).ok_or_else(|| self.unknown_frame(marker))?;

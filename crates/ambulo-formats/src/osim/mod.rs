@@ -135,7 +135,7 @@ fn document_version(root: Node<'_, '_>, remarks: &mut Vec<Remark>) -> Result<u32
     if !(OLDEST_VERSION..=NEWEST_VERSION).contains(&version) {
         let message =
             format!("document version {version} is outside the known {OLDEST_VERSION}-{NEWEST_VERSION}; read as it is");
-        remarks.push(Remark { line: Some(xml::line_of(root)), message });
+        remarks.push(Remark::of_line(xml::line_of(root), message));
     }
     Ok(version)
 }

@@ -54,13 +54,13 @@ fn elements_again<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, '
     xml::elements(node).filter(earlier)
 }
 
-/// Names of elements of a tool: those that are read, and those that are known to be of no use here.
+/// Names of elements of a tool: elements that are read, and elements that are ignored on purpose.
 pub(super) struct Known<'a> {
     pub(super) read: &'a [&'a str],
     pub(super) unused: &'a [&'a str],
 }
 
-/// Names the elements that hold something and were not read, and those that occur twice.
+/// Names the elements with content that were not read, and the elements that occur twice.
 pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &mut Vec<Remark>) {
     let is_filled =
         |n: &Node<'_, '_>| xml::elements(*n).next().is_some() || n.text().is_some_and(|text| !text.trim().is_empty());
@@ -69,7 +69,7 @@ pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &
     let unused: Vec<String> = others().map(tag).filter(|t| known.unused.contains(&t.as_str())).collect();
     if !unused.is_empty() {
         let message = format!("<{}>: not used: {}", node.tag_name().name(), unused.join(", "));
-        remarks.push(Remark { line: Some(xml::line_of(node)), message });
+        remarks.push(Remark::of_line(xml::line_of(node), message));
     }
     for twice in elements_again(node).filter(|n| known.read.contains(&n.tag_name().name())) {
         let message = format!(
@@ -77,11 +77,11 @@ pub(super) fn remark_on_others(node: Node<'_, '_>, known: &Known<'_>, remarks: &
             node.tag_name().name(),
             tag(twice)
         );
-        remarks.push(Remark { line: Some(xml::line_of(twice)), message });
+        remarks.push(Remark::of_line(xml::line_of(twice), message));
     }
     for unknown in others().filter(|n| !known.unused.contains(&n.tag_name().name())) {
         let message =
             format!("<{}>: the element <{}> is not known and was not read", node.tag_name().name(), tag(unknown));
-        remarks.push(Remark { line: Some(xml::line_of(unknown)), message });
+        remarks.push(Remark::of_line(xml::line_of(unknown), message));
     }
 }

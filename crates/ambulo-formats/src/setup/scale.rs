@@ -43,9 +43,9 @@ pub struct ScalerSetup {
 /// A method of scaling.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScalingMethod {
-    /// By distances between markers.
+    /// Distances between markers.
     Measurements,
-    /// By stated factors.
+    /// Stated factors.
     Manual,
 }
 

@@ -1,4 +1,4 @@
-//! What the writers of both formats need of a table.
+//! The parts of a table for the writers of both formats.
 
 use crate::number::NumberText;
 use std::io::{self, Write};

@@ -46,8 +46,8 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remar
         if table.rows() == 0 && units.is_none() && record.len() == table.names.len() {
             units = Units::of_row(record.iter().map(|cell| std::str::from_utf8(cell).unwrap_or("\u{fffd}")));
             if units.is_some() {
-                let message = "the row below the names has units; the numbers are in these units".into();
-                remarks.push(Remark { line: Some(line), message });
+                let message = "the row below the names has units; the numbers are in these units";
+                remarks.push(Remark::of_line(line, message));
                 continue;
             }
         }
@@ -64,7 +64,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remar
     Ok((table, remarks))
 }
 
-/// Bytes of a file in which its decimal mark is looked for.
+/// Number of bytes of a file that are searched for its decimal mark.
 const HEAD_BYTES: usize = 1 << 18;
 
 /// The row of column names, and the number of lines above it: comments, and the line `sep=;` of Excel.
@@ -116,7 +116,7 @@ pub(super) fn empty_cells(gaps: usize) -> Option<Remark> {
         1 => "1 cell is empty; it was read as not-a-number".into(),
         _ => format!("{gaps} cells are empty; they were read as not-a-number"),
     };
-    Some(Remark { line: None, message })
+    Some(Remark::of_file(message))
 }
 
 /// The csv crate counts lines by line feeds, which old Macintosh files do not have.

@@ -147,7 +147,7 @@ pub(crate) fn expected_number(word: &str) -> String {
 pub(crate) const TIME_WORDS: [&str; 10] =
     ["time", "times", "time(s)", "time (s)", "time[s]", "time [s]", "time_s", "time (sec)", "t", "seconds"];
 
-/// Whether a name is that of the column of times.
+/// Whether a name belongs to the column of times.
 pub(crate) fn is_time(name: &str) -> bool {
     TIME_WORDS.iter().any(|word| name.eq_ignore_ascii_case(word))
 }

@@ -126,7 +126,7 @@ impl Table {
         lines::is_time(name).then_some(values)
     }
 
-    /// Makes numbers that nothing can measure missing values: infinite ones, and those beyond `LARGEST`. Returns the
+    /// Replaces impossible numbers by missing values: infinite numbers, and numbers beyond `LARGEST`. Returns the
     /// remark on them.
     pub fn without_impossible(&mut self) -> Option<Remark> {
         let mut found: Option<(usize, String, f64)> = None;
@@ -143,7 +143,7 @@ impl Table {
         let what = if value.is_infinite() { "infinite".to_owned() } else { format!("{value:.0e}") };
         let others = if count > 1 { format!(" ({count} such numbers)") } else { String::new() };
         let message = format!("the value of {} is {what}{others}; it was read as missing", quoted(&name));
-        Some(Remark { line: Some(line), message })
+        Some(Remark::of_line(line, message))
     }
 
     /// Line of the file with this row, counted from 1; `None` for a table made in memory.
@@ -163,8 +163,8 @@ impl Table {
 /// | `hip_flexion_r` (motion files) | `hip_flexion_r` |
 /// | `/jointset/hip_r/hip_flexion_r/speed`, `/forceset/soleus_r/activation` | none: another state variable |
 ///
-/// A plain name may still be no coordinate (`hip_flexion_r_u`, `soleus_r.activation`, `hip_flexion_r_moment`): only
-/// the model knows.
+/// A plain name may still be no coordinate (`hip_flexion_r_u`, `soleus_r.activation`, `hip_flexion_r_moment`): this
+/// depends on the model.
 pub fn coordinate_of_state_path(column: &str) -> Option<&str> {
     let mut parts = column.rsplit('/');
     let last = parts.next().filter(|part| !part.is_empty())?;

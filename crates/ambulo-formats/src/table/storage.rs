@@ -42,10 +42,10 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Table, Vec<Remar
     remarks.extend(empty_cells(empty));
     if let Some(stated) = header.columns.filter(|&stated| stated != width) {
         let message = format!("the header states {}, the file has {width}; read {width}", counted(stated, "column"));
-        remarks.push(Remark { line: Some(label_line), message });
+        remarks.push(Remark::of_line(label_line, message));
     }
     if let Some(stated) = header.rows.filter(|&stated| stated != table.rows()) {
-        remarks.push(Remark { line: None, message: row_count_message(stated, table.rows(), &lines) });
+        remarks.push(Remark::of_file(row_count_message(stated, table.rows(), &lines)));
     }
     Ok((table, remarks))
 }
@@ -83,7 +83,7 @@ fn read_header(lines: &mut Lines<'_>, remarks: &mut Vec<Remark>) -> Result<Heade
         let is_end = text.eq_ignore_ascii_case(ENDHEADER);
         if !is_end && are_names(&line, lines)? {
             let message = format!("no line `{ENDHEADER}` above the names of the columns; they were read as such");
-            remarks.push(Remark { line: Some(line.number), message });
+            remarks.push(Remark::of_line(line.number, message));
             *lines = before;
         }
         if is_end || remarks.last().is_some_and(|remark| remark.line == Some(line.number)) {
@@ -135,7 +135,7 @@ fn settle_degrees(header: &mut Header, remarks: &mut Vec<Remark>) {
             unit(key),
             unit(sentence)
         );
-        remarks.push(Remark { line: None, message });
+        remarks.push(Remark::of_file(message));
     }
 }
 
@@ -196,7 +196,7 @@ fn unknown_version(line: &Line<'_>, value: &str) -> Option<Remark> {
     }
     let message =
         format!("storage version {}; the known versions are 1 to 3; it was read as one of them", quoted(value));
-    Some(Remark { line: Some(line.number), message })
+    Some(Remark::of_line(line.number, message))
 }
 
 fn angles_sentence(text: &str) -> Option<bool> {
@@ -264,7 +264,7 @@ fn read_rows(lines: &mut Lines<'_>, table: &mut Table, stated: Option<usize>) ->
     Ok(empty)
 }
 
-/// Reads a row with empty cells between its tabs; returns their number. `None` if the cells are not those of the table.
+/// Reads a row with empty cells between its tabs; returns their number. `None` if the cells do not fit the table.
 fn read_cells(line: &Line<'_>, table: &mut Table) -> Option<usize> {
     let (rows, width) = (table.lines.len(), table.data.len());
     let mut cells: Vec<&str> = line.text.split('\t').map(str::trim).collect();

@@ -59,7 +59,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// All of them.
+    /// All units of length.
     pub const ALL: [LengthUnit; 3] = [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre];
 
     /// Keyword in the file.

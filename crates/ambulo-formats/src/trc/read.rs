@@ -37,7 +37,7 @@ fn read_text(bytes: &[u8], mut remarks: Vec<Remark>) -> Result<(Trc, Vec<Remark>
     let oddities = read_frames(&mut lines, &mut trc, &places, header.frames)?;
     remarks.extend(oddities.remarks());
     if let Some(stated) = header.frames.filter(|&stated| stated != trc.times.len()) {
-        remarks.push(Remark { line: None, message: frame_count_message(stated, trc.times.len(), &lines) });
+        remarks.push(Remark::of_file(frame_count_message(stated, trc.times.len(), &lines)));
     }
     Ok((trc, remarks))
 }
@@ -167,7 +167,7 @@ fn read_names(
     let places = read_axes(lines, names.len(), remarks)?;
     if let Some(stated) = stated.filter(|&stated| stated != names.len()) {
         let message = format!("NumMarkers states {stated}, the file names {}; read {0}", names.len());
-        remarks.push(Remark { line: Some(line.number), message });
+        remarks.push(Remark::of_line(line.number, message));
     }
     Ok((names, places))
 }
@@ -188,8 +188,8 @@ fn read_axes(lines: &mut Lines<'_>, markers: usize, remarks: &mut Vec<Remark>) -
     if start.next().is_some_and(|word| integer(word).is_some())
         && start.next().is_some_and(|word| number(word).is_some())
     {
-        let message = "no line X1 Y1 Z1 below the names of the markers; three columns were read for each".into();
-        remarks.push(Remark { line: Some(line.number), message });
+        let message = "no line X1 Y1 Z1 below the names of the markers; three columns were read for each";
+        remarks.push(Remark::of_line(line.number, message));
         *lines = before;
         return Ok(Vec::new());
     }
@@ -234,7 +234,7 @@ impl Count {
     fn remark(&self, what: &str) -> Option<Remark> {
         let (line, marker) = self.first.as_ref()?;
         let message = format!("{} {what} (first: marker {})", counted(self.number, "position"), quoted(marker));
-        Some(Remark { line: Some(*line), message })
+        Some(Remark::of_line(*line, message))
     }
 }
 

@@ -60,6 +60,7 @@ def forces(
     mass: float | None = None,
     height: float | None = None,
     static: Recording | _Path | None = None,
+    functional: Recording | _Path | None = None,
     grf: Recording | Table | _Path | None = None,
     loads: _Path | bytes | None = None,
     right: str | None = None,
@@ -79,6 +80,8 @@ def forces(
     markers: _Path | None = None,
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
+    hip: str | None = None,
+    knee_axis: str | None = None,
     max_gap: float | None = None,
     convention: str | None = None,
     start: float | None = None,
@@ -115,6 +118,8 @@ def forces(
         Stature [m].
     static : Recording, str or path-like, optional
         Standing trial of the same person.
+    functional : Recording, str or path-like, optional
+        A movement of hips and knees of the same person, which shows the joints of the built-in body.
     grf : Recording, Table, str or path-like, optional
         Measured ground forces.
     loads : str, path-like or bytes, optional
@@ -151,6 +156,10 @@ def forces(
         Markers for the model: an OpenSim MarkerSet.
     fit : {"frames", "trajectory"}, optional
         How markers are fitted: frame by frame, or all frames together, which is the default for keypoints of video.
+    hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
+        Regression of the hip centres of the built-in body.
+    knee_axis : {"markers", "least-cross-talk"}, optional
+        Axes of the knees of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     convention : {"clinical", "opensim"}, optional
@@ -212,6 +221,7 @@ def forces(
         "heading": heading,
         "earth": earth,
         "static": inputs.path(static, "static"),
+        "functional": inputs.path(functional, "functional"),
         "grf": inputs.path(grf, "grf.mot"),
         "loads": inputs.path(loads, "loads.xml"),
         "marker_set": inputs.path(marker_set, "markers.xml"),
@@ -230,6 +240,8 @@ def forces(
         "subject": subject,
         "markers": markers,
         "fit": fit,
+        "hip": hip,
+        "knee_axis": knee_axis,
         "max_gap": max_gap,
         "convention": convention,
         "start": start,
@@ -282,7 +294,12 @@ def calibrate_person(
     trials: Recording | _Path | Sequence[Recording | _Path],
     model: Model | _Path | bytes | None = None,
     *,
+    grf: Recording | Table | _Path | Sequence[Recording | Table | _Path] | None = None,
+    loads: _Path | bytes | Sequence[_Path | bytes] | None = None,
+    right: str | None = None,
+    left: str | None = None,
     static: Recording | _Path | None = None,
+    functional: Recording | _Path | None = None,
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
@@ -291,6 +308,8 @@ def calibrate_person(
     marker_set: _Path | bytes | None = None,
     plates: Mapping[int, str] | None = None,
     fit: str | None = None,
+    hip: str | None = None,
+    knee_axis: str | None = None,
     max_gap: float | None = None,
     force_delay: float | None = None,
 ) -> Person:
@@ -301,11 +320,19 @@ def calibrate_person(
     Parameters
     ----------
     trials : Recording, str or path-like, or a sequence of these
-        Trials of one person walking over force plates (``.c3d``), each foot on a separate plate.
+        Trials of one person walking over force plates, each foot on a separate plate: recordings that `forces` takes.
     model : Model, str, path-like or bytes, optional
         The body.
+    grf : Recording, Table, str or path-like, or a sequence of these, optional
+        Measured ground forces, one table per trial; by default the force plates in the trials.
+    loads : str, path-like or bytes, or a sequence of these, optional
+        OpenSim external loads, one file per trial: which columns act on which body.
+    right, left : str, optional
+        Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     static : Recording, str or path-like, optional
         Standing trial of the same person.
+    functional : Recording, str or path-like, optional
+        A movement of hips and knees of the same person, which shows the joints of the built-in body.
     mass : float, optional
         Body mass [kg].
     height : float, optional
@@ -322,6 +349,10 @@ def calibrate_person(
         Foot of each force plate, counted from 1: ``{1: "r", 2: "off"}``.
     fit : {"frames", "trajectory"}, optional
         How markers are fitted.
+    hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
+        Regression of the hip centres of the built-in body.
+    knee_axis : {"markers", "least-cross-talk"}, optional
+        Axes of the knees of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     force_delay : float, optional
@@ -346,9 +377,17 @@ def calibrate_person(
     inputs = Inputs()
     named = [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials
     paths = [path for trial in named if (path := inputs.path(trial, "trial.c3d"))]
+    given = [files if isinstance(files, (list, tuple)) else [files] for files in (grf, loads)]
+    measured = [
+        [path for file in files if (path := inputs.path(file, name))]
+        for files, name in zip(given, ("grf.mot", "loads.xml"), strict=True)
+    ]
     options = {
         "model": inputs.path(model, "model.osim"),
+        "right": right,
+        "left": left,
         "static": inputs.path(static, "static"),
+        "functional": inputs.path(functional, "functional"),
         "marker_set": inputs.path(marker_set, "markers.xml"),
         "plates": plates and dict(plates),
         "mass": mass,
@@ -357,10 +396,12 @@ def calibrate_person(
         "subject": subject,
         "markers": markers,
         "fit": fit,
+        "hip": hip,
+        "knee_axis": knee_axis,
         "max_gap": max_gap,
         "force_delay": force_delay,
     }
-    return Person(_ambulo.calibrate(paths, options, inputs.files()))
+    return Person(_ambulo.calibrate(paths, measured, options, inputs.files()))
 
 
 def validate(

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ambulo._table import Table
 
 _JOINTS = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
+_PREDICTED = ":"
 _SIDES = (("r", "right", "tab:blue"), ("l", "left", "tab:red"))
 
 
@@ -49,16 +50,34 @@ def _draw(panel: Any, result: Result, table: Table, name: str, over: str) -> Non
         if column not in table or table.time is None:
             continue
         if over == "time":
-            panel.plot(table.time, table[column], color=color, label=word)
+            _draw_over_time(panel, table, name, (side, word, color))
             continue
         percent = np.arange(101)
         strides, is_predicted = _strides(result, side, depends_on_forces=_depends_on_forces(name))
         curves = [np.interp(start + percent / 100 * (end - start), table.time, table[column]) for start, end in strides]
         if curves:
             label = f"{word}, predicted" if is_predicted else word
-            panel.plot(percent, np.mean(curves, axis=0), color=color, label=label)
+            style = _PREDICTED if is_predicted else "-"
+            panel.plot(percent, np.mean(curves, axis=0), style, color=color, label=label)
     unit = table.unit(next(column for column in (f"{name}_r", f"{name}_l") if column in table))
     panel.set(title=name.replace("_", " "), ylabel=unit, xlabel="s" if over == "time" else "% of the gait cycle")
+
+
+def _draw_over_time(panel: Any, table: Table, name: str, of_side: tuple[str, str, str]) -> None:
+    """Draw a curve of one side, dotted where the ground force behind it was predicted."""
+    import numpy as np
+
+    side, word, color = of_side
+    values = np.asarray(table[f"{name}_{side}"], dtype=float)
+    marks = f"ground_source_{side}"
+    is_marked = marks in table and _depends_on_forces(name)
+    is_predicted = np.asarray(table[marks]) > 0 if is_marked else np.zeros(len(values), dtype=bool)
+    panel.plot(table.time, np.where(is_predicted, np.nan, values), color=color, label=word)
+    if is_predicted.any():
+        # With the measured neighbours, so that the curve has no gaps.
+        shown = is_predicted | np.append(is_predicted[1:], False) | np.append(False, is_predicted[:-1])
+        predicted = np.where(shown, values, np.nan)
+        panel.plot(table.time, predicted, _PREDICTED, color=color, label=f"{word}, predicted")
 
 
 def _depends_on_forces(name: str) -> bool:

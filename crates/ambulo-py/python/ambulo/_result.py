@@ -161,6 +161,11 @@ class Result:
         return self.summary.get("verdict")
 
     @property
+    def knee_adduction(self) -> list[dict[str, Any]]:
+        """External knee adduction moment in stance: ``first_peak``, ``second_peak`` [N.m/kg] and ``impulse`` [N.m.s/kg] of both legs; empty if unknown."""
+        return list(self.summary.get("knee_adduction_moment", []))
+
+    @property
     def findings(self) -> list[dict[str, Any]]:
         """Warnings and notes: ``code``, ``severity``, ``message``, ``count``."""
         return list(self.summary.get("findings", []))

@@ -22,7 +22,7 @@ const TABLES: [(&str, &str); 6] = [
 /// Endings of columns and units.
 const UNITS: [(&str, &str); 3] = [("_moment", "N.m"), ("_force", "N"), ("_power", "W")];
 
-/// The table of a folder, or why there is none.
+/// The table of a folder, or the reason why it has none.
 pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, ResultsError> {
     let mut text = HEAD.to_owned();
     let motion = folder_motion(folder)?;
@@ -77,7 +77,7 @@ fn unit(name: &str) -> &'static str {
     UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map_or("", |(_, unit)| unit)
 }
 
-/// The vertical force that decides whether a column of a foot is meaningful; `None` if it always is.
+/// The vertical force that a foot must have for this column to have a meaning; `None` for columns that always have one.
 fn load<'a>(table: &'a Table, name: &str) -> Option<&'a [f64]> {
     let rest = name.strip_prefix("ground_torque_").or_else(|| {
         let rest = name.strip_prefix("ground_force_")?;

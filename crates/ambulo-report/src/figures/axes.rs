@@ -39,13 +39,13 @@ pub struct Labels {
 /// The text at the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AxisWords<'a> {
-    /// Above the axes.
+    /// Title above the axes.
     pub(super) title: &'a str,
     /// Unit of the ordinate, on the right of the title.
     pub(super) unit: &'a str,
     /// Meaning of positive and negative values, written along the ordinate.
     pub(super) directions: [&'a str; 2],
-    /// Below the axes; `None` if the panel below has the same abscissa.
+    /// Label below the axes; `None` if the panel below has the same abscissa.
     pub(super) abscissa: Option<&'a str>,
     /// Space for a legend between the title and the axes [pt].
     pub(super) legend_height: f64,
@@ -58,7 +58,7 @@ pub(super) const ABOVE: f64 = 14.0;
 pub(super) const BELOW: f64 = 22.0;
 pub(super) const BELOW_NAMELESS: f64 = 12.0;
 const TICK: f64 = 2.5;
-/// Letters of the font that a browser has may be wider than those of the style's first font by this factor.
+/// Letters of the browser's font may be wider than letters of the style's first font by this factor.
 const WIDER: f64 = 1.15;
 /// Bold text is wider by this factor.
 const BOLD: f64 = 1.07;
@@ -162,7 +162,7 @@ impl<'a> Axes<'a> {
         let width = WIDER * BOLD * text_width(words.title, 1.0);
         let size_in = |room: f64| font.panel_pt.min(room / width.max(f64::MIN_POSITIVE));
         let beside = size_in(right - start - WIDER * text_width(&unit_text, font.label_pt) - 4.0);
-        // A unit that has no place beside a long title stands along the axis.
+        // A unit that does not fit next to a long title is written along the axis.
         let is_beside = beside >= font.note_pt || words.directions != [""; 2];
         let size = if is_beside { beside } else { size_in(right - start) }.max(font.note_pt);
         let title = Letters { bold: true, ..Letters::plain(size, &style.text.color, Anchor::Start) };
@@ -267,7 +267,7 @@ pub fn with_power(unit: &str, power: i32) -> String {
     }
 }
 
-/// A number with this many digits, as it stands at an axis.
+/// A number with this many digits, as written at an axis.
 #[must_use]
 pub fn number_text(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$}");

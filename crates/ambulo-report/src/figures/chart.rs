@@ -31,9 +31,9 @@ const LEAST_OF_ZEROS: f64 = 1.0;
 pub struct Chart {
     /// Name of the file without its ending; also the start of the ids of the panels.
     pub name: &'static str,
-    /// Above the panels.
+    /// Title above the panels.
     pub title: String,
-    /// Below the title; may be empty.
+    /// Caption below the title; may be empty.
     pub caption: String,
     /// Width of the figure [mm].
     pub width_mm: f64,
@@ -43,14 +43,14 @@ pub struct Chart {
     pub panel_height_pt: f64,
     /// From left to right, then from top to bottom. Only the lowest panel of a column shows the label of its abscissa.
     pub panels: Vec<ChartPanel>,
-    /// Below the panels.
+    /// Notes below the panels.
     pub notes: Vec<String>,
 }
 
 /// The curves over one pair of axes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChartPanel {
-    /// Above the axes.
+    /// Title above the axes.
     pub title: String,
     /// Horizontal axis.
     pub abscissa: ChartAxis,
@@ -58,7 +58,7 @@ pub struct ChartPanel {
     pub ordinate: ChartAxis,
     /// Whether a unit has the same length along both axes.
     pub to_scale: bool,
-    /// In the order of drawing.
+    /// Curves in the order of drawing.
     pub curves: Vec<ChartCurve>,
     /// Parts of the abscissa that are not feasible, marked red.
     pub infeasible: Vec<[f64; 2]>,

@@ -18,7 +18,7 @@ use std::ops::Range;
 pub struct CycleFigures<'a> {
     /// The rows of `cycles.csv`.
     pub rows: &'a [CycleRow],
-    /// Which coordinates measure which movements.
+    /// Coordinates that measure clinical movements.
     pub names: &'a ClinicalNames,
     /// How the angles of pelvis and hips in the rows are measured.
     pub convention: Convention,

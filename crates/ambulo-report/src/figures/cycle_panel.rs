@@ -136,7 +136,7 @@ impl<'a> CyclePanel<'a> {
         }
         let [_, top, _, bottom] = axes.place;
         let height = TICK * (bottom - top);
-        // Ticks of the left foot are above those of the right, so that both are visible at the same percentage.
+        // Ticks of the left foot are above ticks of the right, so that both are visible at the same percentage.
         let from = bottom - if side == Side::Right { 0.0 } else { height };
         for off in curves.iter().step_by(every).filter_map(|curve| curve.row.foot_off_percent) {
             let stroke =

@@ -26,13 +26,13 @@ pub struct SceneCurves {
     energy: [Curve; 4],
     /// Iterations and the logarithm of the residual.
     solver: [Curve; 2],
-    /// By pair of owners: normal force and friction [N].
+    /// Normal force and friction [N], by pair of owners.
     contacts: BTreeMap<String, [Curve; 2]>,
-    /// By joint and coordinate: whether it is an angle, its value [rad, m] and effort [N.m, N].
+    /// Whether the coordinate is an angle, its value [rad, m] and effort [N.m, N], by joint and coordinate.
     joints: BTreeMap<(String, &'static str), (bool, [Curve; 2])>,
-    /// By body: place along x, y, z [m].
+    /// Place along x, y, z [m], by body.
     bodies: Vec<(String, [Curve; 3])>,
-    /// By closure: force and moment.
+    /// Force and moment, by closure.
     closures: BTreeMap<String, [Curve; 2]>,
 }
 

@@ -41,7 +41,7 @@ impl LineLook {
 pub struct PanelLine {
     /// The values; a gap is not finite.
     pub values: Vec<f64>,
-    /// How it is drawn.
+    /// How the line is drawn.
     pub look: LineLook,
     /// Kind of line, for readers of the file: `cycle`, `mean`.
     pub role: &'static str,
@@ -65,7 +65,7 @@ pub struct PanelArea {
 pub struct SessionPanel {
     /// As in `clinical.csv`, without the side.
     pub id: &'static str,
-    /// Above the axes.
+    /// Title above the axes.
     pub title: &'static str,
     /// Unit of the values.
     pub unit: &'static str,
@@ -88,13 +88,13 @@ pub struct SessionPanel {
 /// A figure of panels, three in a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionFigure {
-    /// Its name in messages.
+    /// Name of the figure in messages.
     pub name: &'static str,
-    /// Above the panels.
+    /// Title above the panels.
     pub title: String,
-    /// Below the title.
+    /// Caption below the title.
     pub caption: String,
-    /// Its panels, in rows.
+    /// Panels of the figure, in rows.
     pub panels: Vec<SessionPanel>,
     /// Symbols with their meaning.
     pub legend: Vec<(SessionSample, String)>,
@@ -243,7 +243,7 @@ pub(crate) struct ProfileFigure {
 /// The bars of one angle.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ProfileBars {
-    /// In two lines.
+    /// Name in two lines.
     pub(crate) name: [String; 2],
     /// Mean and standard deviation of the right and the left score [deg].
     pub(crate) sides: [Option<(f64, Option<f64>)>; 2],

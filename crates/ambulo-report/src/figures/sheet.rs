@@ -158,7 +158,7 @@ struct Entry<'a> {
 /// Space between the axes of two columns [pt].
 const AROUND: f64 = LEFT + BETWEEN + 4.0;
 
-/// Width of the axes of a panel [pt] in a figure of so many columns.
+/// Width of the axes of a panel [pt] in a figure with this number of columns.
 pub(super) fn axes_width(width_mm: f64, columns: usize) -> f64 {
     (points(width_mm) - 2.0 * MARGIN + BETWEEN) / columns.max(1) as f64 - AROUND
 }

@@ -30,7 +30,7 @@ impl<'a> Stroke<'a> {
     }
 }
 
-/// Where a text's point lies in it.
+/// Anchor of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -122,7 +122,7 @@ impl Drawing {
         }
     }
 
-    /// A filled area; nothing if a corner is not finite.
+    /// A filled area; left out if a corner is not finite.
     pub(super) fn polygon(&mut self, corners: &[[f64; 2]], fill: &str, opacity: f64, attributes: &[(&str, String)]) {
         if corners.len() < 3 || corners.iter().flatten().any(|x| !x.is_finite()) {
             return;
@@ -135,7 +135,7 @@ impl Drawing {
         self.put("/>\n");
     }
 
-    /// A filled circle; nothing if its centre is not finite.
+    /// A filled circle; left out if its centre is not finite.
     pub(super) fn circle(&mut self, center: [f64; 2], radius: f64, fill: &str) {
         if center.iter().any(|x| !x.is_finite()) {
             return;

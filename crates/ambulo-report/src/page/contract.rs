@@ -142,6 +142,8 @@ pub(crate) struct Fact {
 pub(crate) enum PageSource {
     /// By force plates.
     Measured,
+    /// By force plates, and from the motion where a foot was beside them.
+    Mixed,
     /// From the motion.
     Predicted,
     /// By a simulation.
@@ -314,6 +316,8 @@ pub(crate) struct Trace {
     pub values: Series,
     /// Its standard deviation.
     pub sd: Option<Series>,
+    /// Times in which the ground force behind it was predicted or is unknown, while others were measured [s].
+    pub predicted: Vec<[f64; 2]>,
     /// Its column in the files.
     pub origin: Option<Origin>,
 }
@@ -601,7 +605,7 @@ pub(crate) struct ViewContact {
     pub side: Option<PageSide>,
 }
 
-/// Page of a motion that is arriving; indices refer to the values of a [`LiveFrame`].
+/// The live page of a stream; indices refer to the values of a [`LiveFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePage {
@@ -625,7 +629,7 @@ pub(crate) struct LiveForce {
     pub point: [usize; 3],
 }
 
-/// A panel of a motion that is arriving.
+/// A panel of the live page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LivePanel {
@@ -637,7 +641,7 @@ pub(crate) struct LivePanel {
     pub curves: Vec<LiveCurve>,
 }
 
-/// A curve of a motion that is arriving.
+/// A curve of the live page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "contract", derive(ts_rs::TS))]
 pub(crate) struct LiveCurve {

@@ -1,4 +1,4 @@
-//! The page of a motion that is arriving: the figure of a model, moved by events, and curves of the last seconds.
+//! The live page: the figure of a model, moved by events, and curves of the last seconds.
 //!
 //! The page is a report with one instant and without curves; what follows comes as events ([`LiveFrame`],
 //! [`LiveState`]).
@@ -82,7 +82,7 @@ fn place(columns: &[(String, &'static str)], name: &str) -> Option<usize> {
     columns.iter().position(|(column, _)| column == name)
 }
 
-/// Where force and centre of pressure of the right and the left foot are.
+/// Columns of force and centre of pressure of the right and the left foot.
 fn forces(columns: &[(String, &'static str)]) -> Vec<LiveForce> {
     let vector = |side: &str, letter: &str| {
         let axis = |axis: &str| place(columns, &format!("ground_force_{side}_{letter}{axis}"));

@@ -15,7 +15,7 @@ pub fn contract() -> String {
     parts.concat().iter().fold(head, |text, declaration| text + &format!("\nexport {declaration}\n"))
 }
 
-/// Pages, runs, and what stands at the top.
+/// Pages, runs, and the head of the page.
 fn runs(config: &Config) -> Vec<String> {
     vec![
         Page::decl(config),
@@ -76,7 +76,7 @@ fn views(config: &Config) -> Vec<String> {
     ]
 }
 
-/// A motion that is arriving.
+/// The types of the live page.
 fn live(config: &Config) -> Vec<String> {
     vec![
         LivePage::decl(config),

@@ -1,5 +1,5 @@
-//! A session of one person: trials pooled, compared with healthy people and with an earlier session, as tables and as a
-//! page.
+//! A session of one person: trials pooled, compared with healthy subjects and with an earlier session, as tables and as
+//! a page.
 //!
 //! | file | content |
 //! |---|---|
@@ -13,6 +13,7 @@
 //! Equations and rules: `ambulo::study::session`. Columns: docs/SESSION.md.
 
 mod differences;
+mod knee_adduction;
 mod norms;
 mod page;
 pub(crate) mod quantities;
@@ -82,6 +83,7 @@ impl Session {
         session.summary.speed_m_s = speeds(|trial| trial.speed_m_s);
         session.summary.speed_dimensionless = speeds(|trial| trial.speed_dimensionless);
         session.summary.times_and_distances = session.times(&computed);
+        session.summary.knee_adduction_moment = knee_adduction::knee_adduction(&session);
         session.summary.trials = trials.iter().enumerate().map(|(k, trial)| session.trial_summary(k, trial)).collect();
         session.summary.excluded = session.excluded();
         session.summary.representative = session.representative_summary();
@@ -326,7 +328,7 @@ impl ComparedSession {
         self.norms.curve(quantity)
     }
 
-    /// The quantities that any cycle has and that move in it.
+    /// The quantities that change in at least one cycle.
     fn shown(&self) -> Vec<SessionQuantity> {
         let moves = |quantity: &SessionQuantity| {
             let curves = self.session.cycles.iter().filter_map(|cycle| cycle.curves.get(quantity.id));

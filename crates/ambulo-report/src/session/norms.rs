@@ -20,7 +20,7 @@ pub(crate) struct NormalTime {
 pub(crate) struct Norms {
     curves: BTreeMap<&'static str, NormalCurve>,
     times: BTreeMap<String, NormalTime>,
-    /// In legends: `children, mean ± SD`.
+    /// Name in legends: `children, mean ± SD`.
     pub(crate) short: String,
     /// Who they are; `None` without a group.
     pub(crate) summary: Option<ReferenceSummary>,

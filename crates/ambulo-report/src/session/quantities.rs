@@ -22,7 +22,7 @@ impl SessionQuantity {
         match self.id {
             FOOT_PROGRESSION => PROGRESSION,
             // The words stand along the ordinate of a small panel.
-            "hip_rotation_moment" => {
+            "hip_rotation_moment" | "knee_rotation_moment" | "ankle_rotation_moment" => {
                 Wording { directions: ["external", "internal"], ..wording(self.id).unwrap_or(UNKNOWN) }
             }
             id => wording(id).unwrap_or(UNKNOWN),
@@ -60,7 +60,7 @@ pub const ANGLES: [SessionQuantity; 15] = [
 ];
 
 /// Moments [N.m/kg], powers [W/kg] and ground forces [body weights], three in a row.
-pub(crate) const KINETICS: [SessionQuantity; 12] = [
+pub(crate) const KINETICS: [SessionQuantity; 15] = [
     of("hip_flexion_moment", -2.0, 2.0),
     of("knee_flexion_moment", -1.5, 1.5),
     of("ankle_dorsiflexion_moment", -1.0, 2.5),
@@ -69,7 +69,10 @@ pub(crate) const KINETICS: [SessionQuantity; 12] = [
     of("ankle_dorsiflexion_power", -2.0, 5.0),
     of("hip_adduction_moment", -1.0, 1.5),
     of("knee_adduction_moment", -1.0, 1.0),
+    of("ankle_inversion_moment", -0.5, 0.5),
     of("hip_rotation_moment", -0.5, 0.5),
+    of("knee_rotation_moment", -0.5, 0.5),
+    of("ankle_rotation_moment", -0.5, 0.5),
     of("ground_force_vertical", 0.0, 1.5),
     of("ground_force_fore_aft", -0.4, 0.4),
     of("ground_force_lateral", -0.2, 0.2),

@@ -1,12 +1,13 @@
 //! A user's reference group: mean and standard deviation between healthy subjects, from one session each; written as
 //! `norm.json`.
 //!
-//! Each person counts once: the mean of the mean curves of both sides. Moments, powers and ground forces are those of
-//! people with measured forces, if there are at least two, otherwise predicted ones.
+//! Each subject counts once: the mean of the mean curves of both sides. Moments, powers and ground forces come from
+//! subjects with measured forces, if there are at least two, otherwise from predicted forces.
 //!
 //! ```text
 //! { "format": "ambulo-reference-group", "version": 1, "persons": 12, "ages_years": [8, 14], "speed_m_s": [1.1, 1.4],
-//!   "convention": "clinical", "curves": { "knee_flexion_angle": { "unit": "deg", "persons": 12, "forces": null, "mean": [101], "sd": [101] } },
+//!   "convention": "clinical",
+//!   "curves": { "knee_flexion_angle": { "unit": "deg", "persons": 12, "forces": null, "mean": [101], "sd": [101] } },
 //!   "times": { "cadence": { "mean": 118, "sd": 7, "n": 12 } } }
 //! ```
 
@@ -38,7 +39,7 @@ pub struct ReferenceGroup {
     pub ages_years: Option<[f64; 2]>,
     /// Lowest and highest mean speed of a person [m/s].
     pub speed_m_s: Option<[f64; 2]>,
-    /// The same over √(g L).
+    /// Speeds over √(g L).
     pub speed_dimensionless: Option<[f64; 2]>,
     /// Convention of the angles of pelvis and hips.
     pub convention: Convention,
@@ -77,7 +78,7 @@ pub enum ReferenceGroupError {
         /// Their number.
         found: usize,
     },
-    /// People whose angles have different conventions.
+    /// Subjects whose angles have different conventions.
     #[error(
         "the angles of some persons have the clinical convention, those of others that of OpenSim; expected one \
          convention"

@@ -3,14 +3,14 @@
 
 use ambulo::numerics::{mean, sample_deviation};
 use ambulo::study::session::VariableScore;
-use ambulo_results::{Convention, WalkingSummary};
+use ambulo_results::{Convention, QuantitySummary, WalkingSummary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The layout of the files of a session; another number is another layout.
 pub const SESSION_FORMAT: u32 = 1;
 
-/// Mean and standard deviation, and the number of cycles, trials or people behind them.
+/// Mean and standard deviation, and the number of cycles, trials or subjects behind them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
@@ -18,7 +18,7 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation; `null` of a single number.
     pub sd: Option<f64>,
-    /// How many.
+    /// Number of values.
     pub n: usize,
 }
 
@@ -29,7 +29,7 @@ impl From<VariableScore> for Spread {
 }
 
 impl Spread {
-    /// Of at least one number.
+    /// Statistics of at least one number.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Spread> {
         let sd = sample_deviation(values);
@@ -58,9 +58,9 @@ pub struct TrialSummary {
     pub verdict: Option<String>,
     /// Whole cycles of the right and of the left foot.
     pub cycles: [usize; 2],
-    /// Those that count in the means.
+    /// Cycles that count in the means.
     pub counted: [usize; 2],
-    /// Those of them with measured forces.
+    /// Counted cycles with measured forces.
     pub measured: [usize; 2],
 }
 
@@ -172,6 +172,9 @@ pub struct SessionSummary {
     pub representative: Option<RepresentativeSummary>,
     /// Over the strides of the cycles that count.
     pub times_and_distances: WalkingSummary,
+    /// External knee adduction moment over the stances of these cycles: `first_peak`, `second_peak`, `impulse`.
+    #[serde(default)]
+    pub knee_adduction_moment: Vec<QuantitySummary>,
     /// The reference group of the session; `null` if there is none.
     pub(crate) reference: Option<ReferenceSummary>,
     /// Why it is not compared.

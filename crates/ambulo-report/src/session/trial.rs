@@ -1,5 +1,5 @@
-//! One computed trial of a session: its cycles in clinical signs, its strides, and what decides whether its cycles
-//! count.
+//! One computed trial of a session: its cycles in clinical signs, its strides, and the facts that decide whether its
+//! cycles count.
 
 use super::quantities::{FOOT_PROGRESSION, all};
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
@@ -30,7 +30,7 @@ pub struct SessionTrial {
 #[derive(Debug, Clone)]
 pub struct ComputedTrial {
     pub(super) facts: TrialFacts,
-    /// None of them is excluded yet; their trial is 0.
+    /// Cycles of the trial; none is excluded yet, and their trial number is 0.
     pub(super) cycles: Vec<SessionCycle>,
     pub(super) strides: Vec<Stride>,
     pub(super) speed_m_s: Option<f64>,
@@ -48,7 +48,7 @@ pub struct ComputedTrial {
 
 impl ComputedTrial {
     /// Takes the cycles of an outcome whose ground forces were predicted, with measured forces where plates measured
-    /// the whole stance of the cycle. Angles of pelvis and hips are those of the chosen convention, where it is
+    /// the whole stance of the cycle. Angles of pelvis and hips follow the chosen convention, where it is
     /// possible.
     #[must_use]
     pub fn of(outcome: &Outcome, chosen: Convention) -> ComputedTrial {
@@ -57,7 +57,10 @@ impl ComputedTrial {
         let (angles, convention) = angles_of(outcome, chosen);
         // All trials of a session have one body, and their forces one mass.
         let unmeasured = &outcome.not_measured;
-        let moving = Curves::of(body, analysis, angles.as_ref()).without(unmeasured).per_mass(body.mass());
+        let moving = Curves::of(body, analysis, angles.as_ref())
+            .without(unmeasured)
+            .with_knees(outcome.knee_angles())
+            .per_mass(body.mass());
         let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
         let on_plates = measured
             .map(|measured| (measured, Curves::of(body, measured, None).without(unmeasured).per_mass(body.mass())));
@@ -157,7 +160,11 @@ impl CurveReader {
             let (analysis, curves) = if is_angle { motion } else { source };
             let is_measured = !is_angle && forces == CycleForces::Measured;
             if let Some(values) = self.values(quantity, cycle.side, is_measured, curves) {
-                found.insert(quantity.id.to_owned(), over_cycle(analysis.trajectory.grid(), values, cycle));
+                let curve = over_cycle(analysis.trajectory.grid(), values, cycle);
+                // Markers that were lost leave gaps in the angles of knees.
+                if curve.iter().all(|value| value.is_finite()) {
+                    found.insert(quantity.id.to_owned(), curve);
+                }
             }
         }
         found

@@ -22,7 +22,7 @@ pub(crate) struct FolderMotion {
     pub(crate) model: Model,
     /// `kinematics.mot`.
     pub(crate) angles: Table,
-    /// The same as a trajectory of the model; rates are zero.
+    /// The motion as a trajectory of the model; rates are zero.
     pub(crate) trajectory: Trajectory,
 }
 

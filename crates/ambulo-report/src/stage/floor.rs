@@ -2,8 +2,8 @@
 
 use super::{StageBody, StageContact, StageForce, StagePlate};
 
-/// Height of the floor [m]: that of the plates, otherwise of the points where forces act, otherwise of the lowest point
-/// of the soles, otherwise zero.
+/// Height of the floor [m]: from the plates, otherwise from the points where forces act, otherwise from the lowest
+/// point of the soles, otherwise zero.
 pub(super) fn height(
     plates: &[StagePlate],
     forces: &[StageForce],

@@ -2,7 +2,7 @@
 //!
 //! A foot is a triangle of capsules between heel, ankle and ball, as thick as the spheres of heel and ball in published
 //! foot models, with the toes in front. Soles of built-in figures are placed by their markers `heel_s`, `ball_s`,
-//! `toe_s`; those of other models by the proportions of a person of this stature ([`Sole`]), moved up or down so that
+//! `toe_s`; soles of other models by the proportions of a person of this stature ([`Sole`]), moved up or down so that
 //! they touch the floor while ground forces load the foot: the height of the ankle differs by a few centimetres between
 //! models.
 

@@ -21,7 +21,7 @@ const SLENDER: f64 = 0.1;
 const LIMITS: [f64; 2] = [0.04, 0.3];
 /// Radius of a body without extent, over stature.
 const DOT: f64 = 0.012;
-/// Parts of a limb: start and end over its length, and radius over that of the thickest part, the muscles.
+/// Parts of a limb: start and end over its length, and radius relative to the thickest part, the muscles.
 const PARTS: [[f64; 3]; 3] = [[0.0, 1.0, 0.78], [0.06, 0.64, 0.9], [0.12, 0.46, 1.0]];
 /// A segment shorter than this, relative to the stature, is drawn as a dot.
 const SHORT: f64 = 0.02;
@@ -57,8 +57,8 @@ pub(super) fn dot(at: Vec3, stature: f64) -> ViewShape {
     capsule(at, at, DOT * stature)
 }
 
-/// Capsules from the joint of the body to those of its children; a body without children ends as far beyond its mass
-/// centre as its joint is on the other side.
+/// Capsules from the joint of the body to the joints of its children; a body without children ends as far beyond its
+/// mass centre as its joint is on the other side.
 pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<ViewShape> {
     let own = places.own(body);
     let ends = ends(places, body);

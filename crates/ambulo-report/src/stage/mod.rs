@@ -73,11 +73,11 @@ pub struct StageBody {
     pub name: String,
     /// Index in `bodies` of its parent.
     pub parent: Option<usize>,
-    /// Whose side.
+    /// Side of the body; `None` in the middle.
     pub side: Option<Side>,
     /// Shapes in its axes.
     pub shapes: Vec<ViewShape>,
-    /// Its pose over time.
+    /// Pose of the body over time.
     pub path: BodyPath,
 }
 
@@ -104,7 +104,7 @@ pub enum ForceRole {
 pub struct StageForce {
     /// Name: `right`, `left, plates`.
     pub name: String,
-    /// Whose side.
+    /// Side of the force.
     pub side: Option<Side>,
     /// Whether results are based on it, or it is shown for comparison.
     pub role: ForceRole,
@@ -119,7 +119,7 @@ pub struct StageForce {
 pub struct StageTorque {
     /// Name: `right knee flexion`.
     pub name: String,
-    /// Whose side.
+    /// Side of the moment.
     pub side: Option<Side>,
     /// Index in `bodies` of the body on which it acts.
     pub body: usize,
@@ -138,9 +138,9 @@ pub struct StageTorque {
 pub struct StageContact {
     /// Index in `bodies`.
     pub body: usize,
-    /// In this body's axes [m].
+    /// Place in the axes of this body [m].
     pub place: Vec3,
-    /// Whose side.
+    /// Side of the sole.
     pub side: Option<Side>,
 }
 

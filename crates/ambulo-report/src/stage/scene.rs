@@ -87,7 +87,7 @@ fn defect(shape: &ViewShape) -> Option<String> {
 struct Instants {
     /// Instants as written in the file.
     times: Vec<String>,
-    /// By name, one row per instant: position, quaternion w, x, y, z.
+    /// Position and quaternion w, x, y, z by name, one row per instant.
     paths: BTreeMap<String, Vec<[f64; 7]>>,
 }
 

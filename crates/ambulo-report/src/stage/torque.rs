@@ -1,7 +1,7 @@
 //! Joint moments for drawing: a centre and an axis in the body on which they act.
 //!
-//! The axis is that of the coordinate while all angles of the joint are zero; where other rotations follow it, it turns
-//! with them by a few degrees, which is too little to see.
+//! The axis is the axis of the coordinate while all angles of the joint are zero; where other rotations follow it, it
+//! turns with them by a few degrees, which is too little to see.
 
 use super::StageTorque;
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};

@@ -106,8 +106,8 @@ fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
     [capsule(chin, vertex - up * thick, thick), capsule(foot, chin, NECK * size.height)]
 }
 
-/// The stature [m], decreased for thin and increased for heavy people: at equal length thickness grows with the root of
-/// mass.
+/// The stature [m], decreased for thin and increased for heavy persons: at equal length thickness grows with the root
+/// of mass.
 fn girth(places: &JointPlaces<'_>, size: &Dimensions) -> f64 {
     let build = (places.model.mass() / size.height.powi(2) / USUAL_BUILD).sqrt();
     size.height * build.clamp(BUILDS[0], BUILDS[1])

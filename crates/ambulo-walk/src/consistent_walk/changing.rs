@@ -1,7 +1,8 @@
 //! A consistent walk whose pace changes on the way.
 //!
 //! The walk is made consistent at every constant pace. Each change is one motion from the state of the walk before to
-//! that of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from outside.
+//! the state of the walk after (`Passage`), or from or to rest, so the whole walk is C² and needs no force from
+//! outside.
 //! Pinned by: tests/walk_changes.rs
 
 use super::settings::ConsistentWalkSettings;
@@ -23,7 +24,7 @@ pub struct ChangingWalk {
     walk: Walk,
     /// Consistent walks at the different paces, in the order in which they come.
     paces: Vec<ConsistentWalk>,
-    /// The figure that stands, if it does.
+    /// The standing figure, if it stands at some time.
     standing: Option<(WalkProblem, Solution)>,
     /// The changes in order of time.
     changes: Vec<Change>,
@@ -143,7 +144,7 @@ impl ChangingWalk {
         }
     }
 
-    /// Writes coordinates, rates and accelerations at a time [s]. The place forward begins anew in every part of the
+    /// Writes coordinates, rates and accelerations at a time [s]. The forward position restarts in every part of the
     /// walk.
     pub fn write(&self, time_s: f64, posture: &mut [Vec<f64>; 3]) {
         let begun = self.changes.partition_point(|change| change.start_s <= time_s).checked_sub(1);

@@ -10,7 +10,7 @@ pub struct ConsistentWalkSettings {
     pub shoes: HuntCrossley,
     /// Resolution of the splines, and costs of deviations, at a constant pace.
     pub costs: WalkCosts,
-    /// The same while the pace changes.
+    /// Costs while the pace changes.
     pub changes: WalkCosts,
 }
 

@@ -95,7 +95,7 @@ impl WalkController {
         figure.maps(&self.plan.paces[0].plan, &self.feedback.impedances)
     }
 
-    /// The controller of the same plan with other settings; `maps` are those of this one.
+    /// The controller of the same plan with other settings; `maps` belong to this controller.
     pub(crate) fn with_settings(
         &self,
         human: &Human,
@@ -146,10 +146,10 @@ impl WalkController {
     }
 
     /// The same controller, which can stop, stand and walk off: speed 0 in [`WalkController::set_speed`]. `walk` and
-    /// `settings` are those of its slowest speed.
+    /// `settings` belong to its slowest speed.
     ///
     /// # Errors
-    /// Movements that are not found; those of [`WalkController::with_movements`].
+    /// Movements that are not found; errors of [`WalkController::with_movements`].
     pub(crate) fn with_standing(
         self,
         human: &Human,
@@ -264,7 +264,7 @@ impl WalkController {
         self.plan.step(self.phase.at).state
     }
 
-    /// Whether it stands: neither walks, nor stops or walks off.
+    /// Whether the figure stands: it neither walks, nor stops or walks off.
     #[must_use]
     pub fn is_standing(&self) -> bool {
         self.phase.at.stage == Stage::Standing
@@ -277,18 +277,18 @@ impl WalkController {
         self.plan.torque_series(&self.feedback.joints, self.phase.step_s)
     }
 
-    /// The largest stiffness by which an angle acts on the torque of its own joint, impedance and feedback together
-    /// [N.m/rad]: names are those of the figure's coordinates.
+    /// The largest stiffness by which an angle acts on the torque of the same joint, impedance and feedback together
+    /// [N.m/rad].
     #[must_use]
     pub fn largest_stiffness(&self, coordinate: CoordinateId) -> f64 {
         self.feedback.largest_stiffness(coordinate.index(), &self.plan)
     }
 
-    /// Motors of the coordinates for the next time step; `None` for those of the root, on which nothing acts. `now` has
-    /// value and rate of each coordinate, in the order of the figure, `loads_n` the vertical force on the right and the
-    /// left foot in the last step.
+    /// Motors of the coordinates for the next time step; `None` for the coordinates of the root, on which nothing acts.
+    /// `now` has value and rate of each coordinate, in the order of the figure; `loads_n` the vertical force on the
+    /// right and the left foot in the last step.
     pub fn act(&mut self, now: &[[f64; 2]], loads_n: [f64; 2]) -> Vec<Option<Motor>> {
-        // Coordinates that the plan does not have, such as the abduction of arms, follow those of the plan.
+        // Coordinates that the plan does not have, such as the abduction of arms, come after the planned ones.
         let now = &now[..self.feedback.impedances.len()];
         let (plan, phase, sensed) = (&self.plan, &mut self.phase, Sensed { now, loads_n });
         phase.feel(plan, sensed);

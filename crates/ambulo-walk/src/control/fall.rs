@@ -53,7 +53,7 @@ struct AtLimit {
     coordinate: usize,
     /// Since when [s].
     since_s: f64,
-    /// When a joint was at its limit for the last time [s].
+    /// Last time at which a joint was at its limit [s].
     last_s: f64,
 }
 

@@ -8,7 +8,7 @@
 //! | `stiffness`, `damping` | k, d | N.m/rad, N.m.s/rad | impedance of a joint |
 //! | `settings.stiffness` | k₇₅ | N.m/rad | stiffness of a hip of an adult of 75 kg and 1.75 m |
 //! | `share_of` | s | 1 | 1 for hips, knees, ankles and the lumbar joint; 0.2 for toes; 0.3 for others |
-//! | `size_of` | m H / (75 kg · 1.75 m) | 1 | mass times height of the figure over that of the adult |
+//! | `size_of` | m H / (75 kg · 1.75 m) | 1 | mass times height of the figure, relative to the adult |
 //! | `deviation` | x - x* | rad, m; rad/s, m/s | coordinates but the place forward, then all rates |
 //! | `lever_m` | c L | m | share c of the length L of the foot |
 //! | `loads_n` | F | N | vertical force on the foot |
@@ -151,7 +151,7 @@ pub(super) fn share_of(human: &Human, coordinate: usize) -> (f64, Option<Movemen
     (share, movement)
 }
 
-/// Mass times height over that of the adult of the settings.
+/// Mass times height, relative to the adult of the settings [1].
 pub(super) fn size_of(human: &Human) -> f64 {
     human.model.mass() * human.build.height / ADULT
 }

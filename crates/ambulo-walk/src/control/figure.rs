@@ -1,4 +1,4 @@
-//! A figure in a world of its own, as the controller sees it: coordinates of its model, motors at its joints, loads
+//! A figure in a separate world, as the controller reads it: coordinates of its model, motors at its joints, loads
 //! under its feet.
 
 use super::settings::ControlError;

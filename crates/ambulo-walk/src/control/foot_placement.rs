@@ -6,7 +6,7 @@
 //!
 //! with the distance d of the mass centre in front of the stance foot and its velocity v; a star marks the plan. The
 //! hip of the stance leg holds the pelvis upright in the world instead of following its own angle: its torque on the
-//! pelvis is k (θ* - θ) + d (θ̇* - θ̇) besides that of the plan, and it carries the reaction of the swing leg.
+//! pelvis is k (θ* - θ) + d (θ̇* - θ̇) plus the torque of the plan, and it carries the reaction of the swing leg.
 //!
 //! Source: Yin, Loken, van de Panne 2007, SIMBICON, ACM Trans Graph 26(3):105 (unverified), with a plan in place of its
 //! fixed postures. Pinned by: docs/measured/PHYSICAL_WALK.md, which compares it with the feedback of the whole state.
@@ -35,7 +35,7 @@ pub(super) struct Followed<'a> {
 }
 
 impl PlacedFeet {
-    /// The law for a figure whose torques are `size` times those of an adult.
+    /// The law for a figure whose torques are `size` times the torques of an adult.
     pub(super) fn new(model: &Model, settings: FootPlacement, size: f64) -> Result<PlacedFeet, ControlError> {
         let anatomy = model.anatomy();
         let hip = |side| anatomy.coordinate(Movement::HipFlexion, Some(side)).map(|(id, _)| id.index());
@@ -54,7 +54,7 @@ impl PlacedFeet {
         }
     }
 
-    /// Torques of both hips besides those of plan and impedance [N.m], for the leg that stands.
+    /// Torques of both hips in addition to plan and impedance [N.m], for the stance leg.
     pub(super) fn torques(
         &self,
         model: &Model,

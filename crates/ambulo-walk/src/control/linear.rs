@@ -27,7 +27,7 @@ pub struct Impedance {
     pub stiffness: f64,
     /// [N.m.s/rad].
     pub damping: f64,
-    /// Of the muscles.
+    /// Strength of the muscles.
     pub strength: StrengthCurve,
 }
 

@@ -13,9 +13,9 @@
 //!
 //!   Σ_steps (x - x*)ᵀ Q (x - x*) + Δτᵀ R Δτ
 //!
-//! which is the periodic Riccati equation (module `riccati`). The phase advances with time and is set to that of the
-//! plan when a foot strikes, early or late. A foot that strikes earlier or later than planned is what the linear system
-//! knows nothing of: with K alone (without k and d) the figure falls when it is pushed backwards.
+//! which is the periodic Riccati equation (module `riccati`). The phase advances with time and is set to the phase of
+//! the plan when a foot strikes, early or late. An early or late strike is not part of the linear system: with K alone
+//! (without k and d) the figure falls when it is pushed backwards.
 //!
 //! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other.
 //! Several plans make one controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop,

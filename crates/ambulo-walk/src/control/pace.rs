@@ -1,4 +1,4 @@
-//! Plans at several speeds, and what lies between two of them.
+//! Plans at several speeds, and interpolation between two of them.
 
 use super::plan::{CyclePlan, PlannedStep};
 use nalgebra::{DMatrix, DVector};
@@ -29,7 +29,8 @@ impl Between<'_> {
         (1.0 - self.share) * of(self.paces[0]) + self.share * of(self.paces[1])
     }
 
-    /// Share of the cycle at which a foot strikes; those of both paces may lie on either side of the end of the cycle.
+    /// Share of the cycle at which a foot strikes; the strikes of both paces may lie on either side of the end of the
+    /// cycle.
     pub(super) fn strike(&self, foot: usize) -> f64 {
         let [first, second] = self.paces.map(|pace| pace.plan.strike(foot));
         let apart = second - first;

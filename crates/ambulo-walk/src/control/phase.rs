@@ -27,7 +27,7 @@ const SWING: f64 = 0.002;
 const LONGEST_WAIT_S: f64 = 0.3;
 /// A foot that was off the ground for a shorter time does not strike [s].
 const SHORTEST_SWING_S: f64 = 0.2;
-/// A strike further from that of the plan does not change the phase; share of the cycle.
+/// A strike further from the planned strike than this share of the cycle does not change the phase.
 const FURTHEST: f64 = 0.25;
 
 /// State of a figure at the start of a time step.
@@ -39,12 +39,12 @@ pub(super) struct Sensed<'a> {
     pub(super) loads_n: [f64; 2],
 }
 
-/// The phase of a figure, and what it knows of its feet.
+/// The phase of a figure, and the state of its feet.
 #[derive(Debug, Clone)]
 pub(super) struct Phase {
     /// Share of the cycle and stage.
     pub(super) at: Moment,
-    /// Whether it stands or is about to.
+    /// Whether the figure stands or is about to stand.
     pub(super) stands: bool,
     /// The foot that struck last.
     pub(super) stance: usize,
@@ -83,7 +83,8 @@ impl Phase {
         self.weight_n = weight_n(model);
     }
 
-    /// Sets the phase to that of the plan when a foot strikes, and the level of the ground to that under the foot.
+    /// When a foot strikes, sets the phase to the planned phase, and the level of the ground to the level under the
+    /// foot.
     pub(super) fn feel(&mut self, plan: &WalkPlan, sensed: Sensed<'_>) {
         for (foot, load) in sensed.loads_n.into_iter().enumerate() {
             if load > STRIKE * self.weight_n {

@@ -1,4 +1,4 @@
-//! A figure that walks by its own torques on level ground, and what becomes of it.
+//! A figure that walks by its own torques on level ground, and the outcome of its walk.
 
 use super::controller::WalkController;
 use super::fall::Fall;
@@ -89,7 +89,7 @@ impl PhysicalWalk {
         self.figure.read()
     }
 
-    /// Generalised force of each coordinate in the last step [N.m or N]; those of the root are zero.
+    /// Generalised force of each coordinate in the last step [N.m or N]; the root's are zero.
     #[must_use]
     pub fn efforts(&self) -> Vec<f64> {
         self.figure.efforts()
@@ -107,7 +107,7 @@ impl PhysicalWalk {
         &self.findings
     }
 
-    /// Makes one step, and says whether its equations were solved.
+    /// Makes one step; returns whether its equations were solved.
     ///
     /// # Errors
     /// Joints that do not form trees.

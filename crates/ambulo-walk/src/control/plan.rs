@@ -62,14 +62,14 @@ pub struct Root {
     pub forward: usize,
     /// Along y.
     pub up: usize,
-    /// To the right; a planar figure has none.
+    /// Coordinate to the right; a planar figure has none.
     pub sideways: Option<usize>,
     /// Rotations.
     pub turns: Vec<usize>,
 }
 
 impl Root {
-    /// Those of a model of a figure.
+    /// The root coordinates of a model of a figure.
     pub fn of(model: &Model) -> Root {
         let named = |name: &str| model.coordinate(name).map(|id| id.index());
         let turns = ["pelvis_tilt", "pelvis_list", "pelvis_rotation"].into_iter().filter_map(named).collect();

@@ -25,7 +25,7 @@ struct SpeedChange {
     to: f64,
 }
 
-/// Whether a speed is that of standing.
+/// Whether a speed means standing.
 fn stands(speed: f64) -> bool {
     speed <= 0.0
 }

@@ -1,11 +1,11 @@
-//! Settings of a controller, and why there is none.
+//! Settings of a controller, and the errors when a controller cannot be made.
 
 use crate::dynamics::CurvedJointError;
 use crate::engine::WorldError;
 use crate::optimal::OptimalWalkError;
 use crate::walking::{TorqueSeries, WalkingError};
 
-/// Settings of a [`WalkController`](super::WalkController). Torques are those of an adult of 75 kg and 1.75 m; they
+/// Settings of a [`WalkController`](super::WalkController). Torques are stated for an adult of 75 kg and 1.75 m; they
 /// grow with mass times stature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControlSettings {
@@ -14,7 +14,7 @@ pub struct ControlSettings {
     pub stiffness: f64,
     /// Damping of the impedance over its stiffness [s].
     pub damping_s: f64,
-    /// What keeps the figure up.
+    /// Balance control.
     pub balance: Balance,
     /// Time after which feedback of the state acts [s]; the state then is foreseen. Muscles need some 40 ms.
     pub delay_s: f64,
@@ -24,10 +24,10 @@ pub struct ControlSettings {
     pub costs: TrackingCosts,
 }
 
-/// What keeps a figure up besides the impedances of its joints.
+/// Balance control in addition to the impedances of joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
-    /// Nothing: it falls.
+    /// No balance control: the figure falls.
     Nothing,
     /// Feedback of the state of the whole figure.
     WholeState,
@@ -49,28 +49,28 @@ pub struct FootPlacement {
 /// Torques of the joints over the cycle, to which impedance and feedback add theirs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TorqueCurves {
-    /// Those of the plan.
+    /// Torques of the plan.
     Plan,
-    /// Mean and this number of harmonics of those of the plan.
+    /// Mean and this number of harmonics of the torques of the plan.
     Harmonics(usize),
-    /// Curves of a file, in proportion to the mass of the figure; joints without one keep that of the plan.
+    /// Curves of a file, in proportion to the mass of the figure; joints without one keep the torque of the plan.
     Given(Vec<TorqueSeries>),
 }
 
-/// Deviations from the plan that cost as much as each other.
+/// Deviations from the plan that have equal cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackingCosts {
-    /// Of the angle of a joint [rad].
+    /// Deviation of the angle of a joint [rad].
     pub angle: f64,
-    /// Of its rate [rad/s].
+    /// Deviation of the rate of a joint [rad/s].
     pub rate: f64,
-    /// Of the rotation of the pelvis in the world [rad].
+    /// Deviation of the rotation of the pelvis in the world [rad].
     pub pelvis: f64,
-    /// Of the height of the pelvis [m].
+    /// Deviation of the height of the pelvis [m].
     pub height: f64,
-    /// Of the place of the pelvis sideways [m].
+    /// Deviation of the sideways position of the pelvis [m].
     pub sideways: f64,
-    /// Of the velocity of the pelvis, along the ground and up [m/s].
+    /// Deviation of the velocity of the pelvis, along the ground and up [m/s].
     pub velocity: [f64; 2],
     /// Of the torque of a hip, knee, ankle or the lumbar joint [N.m]; arms have 0.3 and toes 0.2 times as much.
     pub torque: f64,
@@ -131,12 +131,12 @@ pub enum ControlError {
     /// A plan whose forces cannot be computed.
     #[error(transparent)]
     Plan(#[from] CurvedJointError),
-    /// A figure with other joints or soles than that of the plan.
+    /// A figure with other joints or soles than the planned figure.
     #[error("found a figure with {found}; expected {expected}, as in the plan")]
     Figure {
         /// Coordinates and soles of the figure.
         found: String,
-        /// Those of the plan.
+        /// Coordinates and soles of the plan.
         expected: String,
     },
     /// The figure cannot be simulated.
@@ -170,9 +170,9 @@ pub enum ControlError {
          speed and figure"
     )]
     TorqueCycle {
-        /// That of the curves [s].
+        /// Cycle of the curves [s].
         found_s: f64,
-        /// That of the plan [s].
+        /// Cycle of the plan [s].
         cycle_s: f64,
     },
     /// Controllers that cannot be joined.
@@ -181,7 +181,7 @@ pub enum ControlError {
          several speeds"
     )]
     Joined {
-        /// What was found.
+        /// Description of what was passed.
         found: String,
     },
     /// A speed that no plan of a controller has.
@@ -192,9 +192,9 @@ pub enum ControlError {
     Speed {
         /// The speed [m/s].
         found: f64,
-        /// That of the slowest plan [m/s].
+        /// Speed of the slowest plan [m/s].
         slowest: f64,
-        /// That of the fastest plan [m/s].
+        /// Speed of the fastest plan [m/s].
         fastest: f64,
     },
     /// A figure that cannot stop, or walk off.

@@ -1,6 +1,6 @@
-//! Standing, and the ways from a walk there and back: their plans, their gains, and where on them a figure is.
+//! Standing, stopping and walking off: their plans and gains, and the progress of a figure in them.
 //!
-//! The gains of a stop are those of the Riccati equation backwards from standing, and the gains of a start backwards
+//! The gains of a stop follow from the Riccati equation backwards from standing, and the gains of a start backwards
 //! from the walk that it joins. Standing is a plan of one time step that repeats. Feet that stand cannot be moved by
 //! torques, so that a deviation of their place would cost for ever: standing looks ahead for some seconds only.
 
@@ -116,7 +116,7 @@ impl Maker<'_> {
         Ok(Standing { stop, stand, start, soles_m })
     }
 
-    /// A movement that goes on with the steps `after`, with the matrix P after these.
+    /// A movement followed by the steps `after`, with the matrix P of the Riccati equation after these.
     fn movement(
         &mut self,
         solution: &Solution,

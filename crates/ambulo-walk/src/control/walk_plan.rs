@@ -1,4 +1,4 @@
-//! What a controller plans: q*, q̇* and τ* at any phase and speed, and in standing.
+//! The plan of a controller: q*, q̇* and τ* at any phase and speed, and in standing.
 //!
 //! Between two speeds v₁ < v < v₂ with plans, and with the share w = (v - v₁) / (v₂ - v₁),
 //!
@@ -11,7 +11,7 @@
 //! | `PlannedStep::torques` | τ* | N.m | torques in its middle |
 //! | `Pace::gains` | K | N.m per unit of state | one row per joint, one column per entry of the state |
 //! | `speed` | v | m/s | present speed |
-//! | `height_ratio` | | 1 | hip height over that of the figure of the plan |
+//! | `height_ratio` | | 1 | hip height, relative to the figure of the plan |
 //!
 //! Pinned by: tests/physical_walk.rs.
 
@@ -69,7 +69,7 @@ pub(super) struct WalkPlan {
     pub(super) body: Arc<Body>,
     /// The present speed [m/s].
     pub(super) speed: f64,
-    /// Hip height over that of the figure of the plan.
+    /// Hip height, relative to the figure of the plan [1].
     pub(super) height_ratio: f64,
 }
 

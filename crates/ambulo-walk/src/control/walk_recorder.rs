@@ -137,7 +137,7 @@ impl FigureRecorder {
     fn control(&mut self, world: &mut World, end_s: f64) {
         let Some(Live::Controller(own)) = &mut self.live else { return };
         let controller = &mut own.controller;
-        // All speeds of the schedule lie between those of the plans.
+        // All speeds of the schedule lie between the speeds of the plans.
         let _within = controller.set_speed(own.schedule.at(end_s));
         let last = self.feet[0].force.len().checked_sub(1);
         let loads_n = last.map_or([0.0; 2], |last| [0, 1].map(|foot| self.feet[foot].force[last].y));
@@ -194,8 +194,8 @@ impl FigureRecorder {
         self.before = self.tree.read(world, state, &world.joint_of_body());
     }
 
-    /// Records a step; the wrenches of the workspace must have been read. The posture is that of its start; velocities
-    /// belong to the middle of steps.
+    /// Records a step; the wrenches of the workspace must have been read. The posture belongs to the start of the step,
+    /// velocities to the middle of steps.
     pub(crate) fn after_step(
         &mut self,
         world: &World,

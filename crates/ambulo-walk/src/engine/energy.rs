@@ -30,7 +30,7 @@ const RISE: f64 = 0.1;
 /// Smallest rise that counts, as the whole weight lifted by this height [m].
 const LIFTED_M: f64 = 1e-3;
 
-/// Watches that the energy of a scene does not rise above that of its start.
+/// Watches that the energy of a scene does not rise above its initial energy.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EnergyWatch {
     /// Energies and time at which it began [J, s].

@@ -2,8 +2,8 @@
 //! root.
 //!
 //! Each rotation of a joint is a hinge of the world, so that every angle of the model has its own motor; between the
-//! hinges of one joint are links without mass. The root of a planar figure is a planar joint, that of a figure in three
-//! dimensions is a free body.
+//! hinges of one joint are links without mass. The root of a planar figure is a planar joint, the root of a figure in
+//! three dimensions is a free body.
 
 use super::check::WorldError;
 use super::joint::JointKind;
@@ -165,7 +165,7 @@ impl FigureTree {
     }
 }
 
-/// The frame of a body of the model in that of the world's body, whose origin is the mass centre.
+/// The frame of a body of the model in the frame of the world's body, whose origin is the mass centre.
 pub(super) fn center_from(model: &Model, id: BodyId) -> Pose {
     Pose::at(-model.bodies()[id.index()].inertia.center())
 }

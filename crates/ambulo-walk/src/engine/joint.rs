@@ -13,7 +13,7 @@
 //! | planar    | t(q₁ x + q₂ y) R_z(q₃)  | distances along x and y of P, angle about z              |
 //! | free      | t R                     | rotation vector and position in P; rates in P            |
 //!
-//! Functions that run for every joint in every step are inlined, for the same reason as those of `Pose`.
+//! Functions that run for every joint in every step are inlined, for the same reason as the functions of `Pose`.
 
 use crate::dynamics::Six;
 use crate::numerics::elementary::{atan2, sin_cos};
@@ -24,7 +24,7 @@ use std::ops::Range;
 /// The motions that a joint leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
-    /// None.
+    /// No free motion.
     Weld,
     /// A rotation about z.
     Revolute,
@@ -190,8 +190,8 @@ impl JointKind {
         displacement
     }
 
-    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, that of the
-    /// rotation after the other.
+    /// Coordinates after a displacement along the free directions: their sum; for rotation vectors, the rotation vector
+    /// of the two rotations in turn.
     #[inline(always)]
     pub(crate) fn moved(self, q: &[f64], along: &Coordinates) -> Coordinates {
         let mut moved = [0.0; MOST];
@@ -331,7 +331,7 @@ pub(super) fn advance(pose: &mut Pose, twist: &Twist, h: f64) {
 #[inline(always)]
 pub(crate) fn orthonormal(r: &Mat3) -> Mat3 {
     let [x, y, z] = [0, 1, 2].map(|k| r.column(k).into_owned());
-    // Columns of R times those of (3 - RᵀR)/2, which is symmetric.
+    // R (3 - RᵀR)/2 by columns; the second factor is symmetric.
     let (xx, yy, zz) = (1.5 - 0.5 * x.dot(&x), 1.5 - 0.5 * y.dot(&y), 1.5 - 0.5 * z.dot(&z));
     let (xy, xz, yz) = (0.5 * x.dot(&y), 0.5 * x.dot(&z), 0.5 * y.dot(&z));
     Mat3::from_columns(&[x * xx - y * xy - z * xz, y * yy - x * xy - z * yz, z * zz - x * xz - y * yz])

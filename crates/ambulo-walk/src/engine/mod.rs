@@ -1,7 +1,7 @@
 //! The simulator: worlds of rigid bodies, driven joints, contacts and loops, stepped through time.
 //!
 //! A [`World`] describes bodies, the [`TreeJoint`]s that make trees of them, [`Closure`]s that close loops, and
-//! [`Surface`]s that may touch. A [`WorldState`] holds positions and velocities; [`step`] advances it, and
+//! [`Surface`]s that may touch. A [`WorldState`] contains positions and velocities; [`step`] advances it, and
 //! [`StepWorkspace::forces`] returns the forces of the step, which are the multipliers of its constraints. Every body
 //! has six coordinates. Only memory limits their number.
 //!

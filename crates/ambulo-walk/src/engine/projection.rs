@@ -47,7 +47,7 @@ struct Travel<'a> {
     share: f64,
 }
 
-/// Where drives take their coordinates.
+/// Places from which drives take their coordinates.
 #[derive(Debug, Clone, Copy)]
 struct Drives<'a> {
     prescribed: &'a Prescribed,
@@ -234,7 +234,7 @@ impl StepWorkspace {
         }
     }
 
-    /// Sets the displacements that rows ask for at the present positions.
+    /// Sets the displacements that rows require at the present positions.
     fn aim(&mut self, world: &World, state: &WorldState, h: f64) {
         let most = CLOSING_SPEED * h;
         let graph = &self.equations.assembly.graph;
@@ -354,8 +354,9 @@ pub(super) fn still_closing(world: &World, state: &WorldState) -> bool {
     (0..world.closures.len()).any(|number| world.closures[number].active && largest_error(world, state, number) > FAR)
 }
 
-/// The share of the displacements to apply: all of them, unless they are far larger than the errors that they remove.
-/// In stretched loops a small error along the loop needs a large displacement across it, beyond the linear range.
+/// The share of the displacements to apply: 1, or less if displacements are far larger than the errors that they
+/// remove. In stretched loops a small error along the loop needs a large displacement across it, beyond the linear
+/// range.
 fn share_of_displacements(targets: &[f64], displacements: &[Six]) -> f64 {
     let slide = |six: &Six| six.fixed_rows::<3>(3).amax();
     let error = targets.iter().map(|t| t.abs()).fold(0.0, f64::max);

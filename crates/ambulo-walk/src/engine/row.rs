@@ -1,4 +1,4 @@
-//! Motion and forces at one instant: what a row of a table of a scene has.
+//! Motion and forces at one instant: the content of a row in the tables of a scene.
 //!
 //! The instant t is the start of a step of h. Steps of impulses keep velocities of the middle of steps, and their
 //! multipliers λ/h balance
@@ -17,8 +17,8 @@
 //! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at
 //! t.
 //!
-//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a
-//! loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
+//! In three cases, forces are the plain multipliers of the step. A drive gives way, follows targets that a machine
+//! computes from step to step, or turns a ball joint; a loop is being closed; or the solver did not converge.
 //!
 //! Pinned by: tests/scene_instants.rs
 
@@ -47,7 +47,7 @@ pub(crate) struct StepTaken<'a> {
     pub(crate) after: &'a WorldState,
     pub(crate) settings: &'a StepSettings,
     pub(crate) workspace: &'a StepWorkspace,
-    /// Whether the velocities before it are those of its start, as at the start of a scene.
+    /// Whether the velocities in `before` belong to the start of the step, as at the start of a scene.
     pub(crate) begins: bool,
 }
 
@@ -83,7 +83,7 @@ impl StepTaken<'_> {
         if !equations.solution.convergence.converged {
             return Ok(Row { state, forces });
         }
-        // Positions are those of the step to the last bit.
+        // Positions equal the positions of the step to the last bit.
         if !keeps {
             state.twists = here.twists;
         }
@@ -104,7 +104,7 @@ impl StepTaken<'_> {
     }
 
     /// Whether the row has the velocities of the step before: passive bodies that may touch. With these their energy
-    /// never rises; the mean over a collision would be that of no instant.
+    /// never rises; the mean over a collision would belong to no instant.
     fn keeps_velocities(&self) -> bool {
         let mut owners = self.world.surfaces.iter().map(|surface| surface.owner);
         let first = owners.next();

@@ -124,7 +124,7 @@ pub struct Instant<'a> {
 }
 
 impl<'a> Instant<'a> {
-    /// Nothing is read yet.
+    /// An instant without readings.
     pub fn new(time_s: f64) -> Instant<'a> {
         Instant { time_s, last: None }
     }

@@ -115,10 +115,10 @@ pub(crate) fn accelerations(
     Ok(first.solution.motions.iter().map(twist).collect())
 }
 
-/// What is known of the effort along an undriven coordinate [N.m or N].
+/// Known part of the effort along an undriven coordinate [N.m or N].
 #[derive(Debug, Clone, Copy)]
 pub(super) enum KnownEffort {
-    /// All of it.
+    /// The whole effort.
     All(f64),
     /// Limits and dry friction; springs and motors obey their laws.
     Besides(f64),
@@ -128,7 +128,7 @@ pub(super) enum KnownEffort {
 pub(super) struct Known<'a> {
     /// Forces at contact points.
     pub(super) contacts: &'a [ContactForce],
-    /// Efforts by joint and coordinate; those of driven coordinates are not used.
+    /// Efforts by joint and coordinate; efforts of driven coordinates are not used.
     pub(super) efforts: Vec<Vec<KnownEffort>>,
 }
 

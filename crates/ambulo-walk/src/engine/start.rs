@@ -5,7 +5,7 @@
 //!
 //!   M v = M v⁻ + Jᵀ λ          J v = 0, or the rate of a drive
 //!
-//! as if the joints took hold with an impulse. Without drives this removes the energy ½ (v⁻ - v)ᵀ M (v⁻ - v), so it
+//! as if the joints were closed by an impulse. Without drives this removes the energy ½ (v⁻ - v)ᵀ M (v⁻ - v), so it
 //! never adds any (Carnot). Both integrators begin there.
 //!
 //! Pinned by: tests/scene_start.rs

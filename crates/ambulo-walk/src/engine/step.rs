@@ -79,8 +79,8 @@ pub fn accelerations(
     smooth::accelerations(world, state, solver, &mut w.solver, &mut w.equations)
 }
 
-/// A step of impulses. It is divided at the instant at which a fast body meets a surface that it would have passed at
-/// the end of the step: bodies that rebound do so in the step in which they overlap.
+/// A step of impulses. It is divided at the instant at which a fast body touches a surface that it would have passed at
+/// the end of the step. So bodies rebound in the step in which they overlap.
 fn impulse_parts(
     world: &World,
     state: &mut WorldState,
@@ -193,7 +193,7 @@ impl StepWorkspace {
         let fastest = state.twists.iter().map(|t| t.angular.norm()).fold(0.0, f64::max);
         let parts = (fastest * h / MOST_TURN).ceil().clamp(1.0, MOST_PARTS);
         for part in 0..parts as usize {
-            // The forces of the step are those of its first part.
+            // The forces of the step are the forces of its first part.
             let SmoothWorkspace { later, first_of_part, .. } = &mut self.smooth;
             let first = if part == 0 { &mut self.equations } else { first_of_part };
             runge_kutta(world, state, h / parts, &settings.solver, &mut self.solver, first, later)?;

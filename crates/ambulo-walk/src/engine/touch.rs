@@ -27,7 +27,7 @@ const MARGIN_M: f64 = 1e-4;
 /// Slip below which the secant of smooth friction is taken at its start [m/s].
 const STILL_M_S: f64 = 1e-6;
 
-/// An approach faster than gravity gives within so many steps is an impact.
+/// An approach is an impact if it is faster than the speed that gravity gives within this number of steps.
 const RESTING_STEPS: f64 = 4.0;
 
 /// Gaps below this count as closed [m]: the solver's tolerance divided by the step would otherwise set the points of
@@ -47,7 +47,7 @@ pub(crate) struct Touch {
     pub(crate) at: ContactPoint,
     /// Tangents; (normal, first, second) is a right-handed frame.
     pub(crate) tangents: [Vec3; 2],
-    /// Its rows in the graph, once [`TouchWorkspace::add_rows`] has added them.
+    /// Rows of the point in the graph, once [`TouchWorkspace::add_rows`] has added them.
     pub(crate) rows: ContactRows,
     /// Normal velocity of the second surface itself, if it is an obstacle [m/s].
     pub(crate) surface_speed: f64,
@@ -317,8 +317,8 @@ impl RowWriter<'_> {
         true
     }
 
-    /// Aims the normal row of a rigid point at the velocity that its law asks for; returns whether the point acts in
-    /// this step. `u` is the normal velocity at the start of the step.
+    /// Sets the target of the normal row of a rigid point to the velocity that its law requires; returns whether the
+    /// point acts in this step. `u` is the normal velocity at the start of the step.
     fn aim(&self, touch: &mut Touch, row: &mut Constraint, u: f64, restitution: f64) -> bool {
         let (gap, h) = (touch.at.gap, self.span.h);
         let resting = RESTING_STEPS * h * self.world.gravity.norm();
@@ -342,7 +342,8 @@ impl RowWriter<'_> {
         true
     }
 
-    /// A point that loses all its velocity in an impact: one row that can only push, two that hold.
+    /// A point that loses all its velocity in an impact: one unilateral row along the normal, two bilateral rows along
+    /// the tangents.
     fn add_sticking(&mut self, touch: &mut Touch, rows: &[Constraint; 3], on: ActsOn) {
         let ((a, b), feature) = (touch.surfaces, touch.at.feature);
         let (group, normal) = self.push(&rows[..1], on, Law::Bounded { least: 0.0, most: f64::INFINITY });
@@ -388,7 +389,7 @@ impl RowWriter<'_> {
         }
     }
 
-    /// Adds a group of rows; returns its number and that of its first row.
+    /// Adds a group of rows; returns the number of the group and the number of its first row.
     fn push(&mut self, rows: &[Constraint], on: ActsOn, law: Law) -> (usize, usize) {
         let start = self.graph.rows.len();
         self.graph.rows.extend_from_slice(rows);
@@ -472,7 +473,7 @@ fn owner_motion(state: &WorldState, obstacles: &ObstaclePoses, surface: &Surface
     (pose, twist.linear.norm() + arm * twist.angular.norm())
 }
 
-/// The pose of a surface's shape. Spheres have no axes, so they keep those of their owner.
+/// The pose of a surface's shape. Spheres have no axes, so they keep their owner's axes.
 #[inline(always)]
 fn placed(owner: &Pose, surface: &Surface) -> Pose {
     match surface.shape.is_sphere() {

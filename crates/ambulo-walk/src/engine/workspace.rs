@@ -73,7 +73,7 @@ pub(crate) enum StepKind {
 pub(crate) struct Equations {
     pub(crate) assembly: Assembly,
     pub(crate) solution: GraphSolution,
-    /// Of the stages of a Runge-Kutta step so far: iterations, and what the first one that failed violates.
+    /// Iterations of all stages of a Runge-Kutta step so far, and the laws that the first failed stage violates.
     pub(crate) iterations: usize,
     pub(crate) contradiction: Option<String>,
 }
@@ -90,7 +90,7 @@ pub(crate) struct ContactWorkspace {
 /// Scratch of the positions at the end of a step ([`super::projection`]).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ProjectionWorkspace {
-    /// Displacements that rows ask for [m, rad].
+    /// Displacements that rows require [m, rad].
     pub(crate) targets: Vec<f64>,
     /// Displacements of bodies, and of coordinates.
     pub(crate) displacements: Vec<Six>,
@@ -152,9 +152,9 @@ pub struct StepWorkspace {
 }
 
 impl StepWorkspace {
-    /// The forces of the last step. Those of [`Integrator::Impulse`] and [`Integrator::RungeKutta`] belong to its
-    /// start, those of [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a
-    /// step of impulses belong to half a step earlier; frames of a scene have all at one instant.
+    /// The forces of the last step. With [`Integrator::Impulse`] and [`Integrator::RungeKutta`] they belong to its
+    /// start, with [`Integrator::Midpoint`] to its middle. The centripetal and Coriolis parts of joint forces in a step
+    /// of impulses belong to half a step earlier; in frames of a scene all belong to one instant.
     #[must_use]
     pub fn forces(&self, world: &World) -> StepForces {
         let (graph, h) = (&self.equations.assembly.graph, self.step_s);
@@ -227,7 +227,7 @@ impl StepWorkspace {
             .collect()
     }
 
-    /// Impacts of the last step that are not part of its forces: those of a Runge-Kutta step, or of
+    /// Impacts of the last step that are not part of its forces: from a Runge-Kutta step, or from
     /// [`ImpactLaw::Sticking`](super::ImpactLaw::Sticking).
     #[must_use]
     pub fn impacts(&self) -> &[Impact] {

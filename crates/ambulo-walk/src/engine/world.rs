@@ -1,4 +1,4 @@
-//! The description of a simulated world: bodies, joints, closures, surfaces, obstacles, and what drives them.
+//! The description of a simulated world: bodies, joints, closures, surfaces, obstacles, and their drives.
 
 use super::joint::JointKind;
 use super::signal::Signal;
@@ -318,7 +318,8 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Pose in ground of the mass centre frame of every body at an instant; the axes are those of the model's bodies.
+    /// Pose in ground of the mass centre frame of every body at an instant; its axes are the axes of the model's
+    /// bodies.
     #[must_use]
     pub fn poses(&self, t: f64) -> Vec<Pose> {
         let values: Vec<[f64; 3]> = self.coordinates.iter().map(|signal| signal.at(t)).collect();

@@ -9,7 +9,7 @@
 //! thigh = hip - tilt                                                     forward of the vertical
 //! own pelvis:            forward = tilt - standing,   hip_flexion = thigh + forward = hip - standing
 //!                        pelvis_tilt = -forward,      lumbar_extension = forward - lean
-//! pelvis in the trunk:   forward = lean,              hip_flexion = thigh + lean,    pelvis_tilt = -lean,   lumbar_extension = 0
+//! pelvis in the trunk:   forward = lean,    hip_flexion = thigh + lean,    pelvis_tilt = -lean,   lumbar_extension = 0
 //! ```
 
 use super::jet::Jet;

@@ -3,7 +3,7 @@
 //! On the segment between knots k and k+1, with phase φ [cycles] and dimensionless speed V*:
 //!
 //! ```text
-//! w = p_{k+1}(V*) - p_k(V*),   u = (φ - p_k(V*)) / w,   angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
+//! w = p_{k+1}(V*) - p_k(V*),  u = (φ - p_k(V*)) / w,  angle = h(u; a_k, s_k w, c_k w²; a_{k+1}, s_{k+1} w, c_{k+1} w²)
 //! ```
 //!
 //! **C² in φ and V* together.** Each segment is a smooth function of (φ, V*), because w is above zero. Let D be the
@@ -41,7 +41,7 @@ pub struct Knot {
     pub slope: SpeedLaw,
     /// Second derivative [rad/cycle²].
     pub curvature: SpeedLaw,
-    /// How much of a change of step height applies to this knot, 0 to 1.
+    /// Share of a change of step height that applies to this knot, 0 to 1.
     pub height_share: f64,
 }
 
@@ -178,7 +178,7 @@ pub struct SteadyCurve {
     speed: Jet,
     /// Phases of the knots [cycles].
     phases: Vec<f64>,
-    /// One per knot.
+    /// Segments of the curve, one per knot.
     pub segments: Vec<Segment>,
 }
 
@@ -195,6 +195,7 @@ impl SteadyCurve {
     }
 
     /// [`CyclicCurve::at`].
+    #[inline]
     pub fn at(&self, phase: Jet, speed: Jet) -> Jet {
         self.at_chosen(phase, speed, |segment| segment)
     }

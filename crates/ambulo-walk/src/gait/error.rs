@@ -89,7 +89,7 @@ pub enum GaitError {
          change"
     )]
     OverlappingChange {
-        /// Its start [s].
+        /// Start of the change [s].
         start_s: f64,
         /// End of the previous change [s].
         earliest_s: f64,

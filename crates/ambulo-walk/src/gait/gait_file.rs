@@ -89,7 +89,7 @@ impl PaceChange {
         PaceChange::read_values(table, start_s)
     }
 
-    /// The same without `at`.
+    /// Reads a change of pace from a table without `at`.
     pub(super) fn read_values(table: &Table<'_>, start_s: f64) -> Result<PaceChange, TomlError> {
         let speed = table.get("speed").map(|value| value.zero_or_more()).transpose()?;
         let step_length = table.get("step_length").map(|value| value.above_zero()).transpose()?;
@@ -208,7 +208,7 @@ fn scale_or(root: &Table<'_>, key: &str, default: f64) -> Result<f64, TomlError>
     if FACTOR.contains(factor) { Ok(factor) } else { Err(value.wrong(FACTOR.expected)) }
 }
 
-/// Adds the changes of the file to those of the base.
+/// Adds the changes of the file to the changes of the base.
 fn read_changes(root: &Table<'_>, gait: &mut Gait, laws: &Laws) -> Result<(), GaitError> {
     let tables = root.tables("change")?;
     let mut last = [None; 3];

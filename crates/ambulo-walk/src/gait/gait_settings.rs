@@ -40,7 +40,7 @@ pub struct Gait {
 pub struct Pace {
     /// Walking speed.
     pub speed: Option<Speed>,
-    /// Step length [m], from the foot strike of one foot to that of the other.
+    /// Step length [m], from the foot strike of one foot to the foot strike of the other.
     pub step_length: Option<f64>,
     /// Step frequency [steps/s].
     pub step_frequency: Option<f64>,
@@ -73,7 +73,7 @@ impl Pace {
 /// A walking speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// In m/s.
+    /// Speed in m/s.
     MetersPerSecond(f64),
     /// V/√(gL).
     Dimensionless(f64),
@@ -287,7 +287,7 @@ impl Gait {
         })
     }
 
-    /// Whether a transition of a machine reads what only a simulation knows, such as the loads on the feet.
+    /// Whether a transition of a machine reads a value that exists only in a simulation, such as the loads on the feet.
     #[must_use]
     pub(crate) fn machines_read_simulation(&self) -> bool {
         let mut conditions = self.machines.iter().flat_map(|machine| &machine.transitions);

@@ -1,4 +1,4 @@
-//! Mean ground forces of people against speed, for one foot over its cycle.
+//! Mean measured ground forces as functions of speed, for one foot over its cycle.
 //!
 //! Dynamically consistent walks ([`crate::consistent_walk`]) use them as targets. The laws are quadratics through three
 //! of the five speeds of Schwartz, Rozumalski, Trost 2008 (very slow, free, very fast); the other two speeds test them.

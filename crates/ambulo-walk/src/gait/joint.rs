@@ -124,7 +124,7 @@ impl WalkPart {
         WalkPart::ALL.into_iter().filter(|part| part.name() == name || of_both(part)).collect()
     }
 
-    /// Accepted angles [rad]: those of the joints of a leg, and half a turn for the others.
+    /// Accepted angles [rad]: the ranges of the joints of a leg, and half a turn for other joints.
     #[must_use]
     pub(crate) fn plausible(self) -> [f64; 2] {
         match self {

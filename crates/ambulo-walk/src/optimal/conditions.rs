@@ -30,14 +30,14 @@ pub struct WalkConditions {
 pub struct Load {
     /// Mass [kg].
     pub mass: f64,
-    /// Where it is carried.
+    /// Place at which the load is carried.
     pub place: LoadPlace,
 }
 
 /// Where a load is carried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadPlace {
-    /// In a backpack: behind the mass centre of trunk and head.
+    /// A backpack: behind the mass centre of trunk and head.
     Back,
     /// Half in each hand.
     Hands,
@@ -65,8 +65,8 @@ pub struct Device {
 
 /// Smallest and largest slope [%].
 const STEEPEST: [f64; 2] = [-40.0, 40.0];
-/// Distance of the mass centre of a backpack behind that of trunk and head, as a share of stature: our choice, 0.2 m
-/// for a man of 1.75 m.
+/// Distance of the mass centre of a backpack behind the mass centre of trunk and head, as a share of stature: our
+/// choice, 0.2 m for a man of 1.75 m.
 const BACKPACK: f64 = 0.115;
 
 impl LoadPlace {
@@ -74,7 +74,7 @@ impl LoadPlace {
     pub const ALL: [(&'static str, LoadPlace); 3] =
         [("back", LoadPlace::Back), ("hands", LoadPlace::Hands), ("pelvis", LoadPlace::Pelvis)];
 
-    /// Its name.
+    /// Name of the place.
     #[must_use]
     pub fn name(self) -> &'static str {
         LoadPlace::ALL.iter().find(|(_, place)| *place == self).map_or("", |(name, _)| name)

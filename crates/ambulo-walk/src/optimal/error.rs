@@ -8,7 +8,7 @@ use crate::numerics::Shown;
 use crate::toml_reader::TomlError;
 
 /// Largest root mean square of the forces at the root between the instants of a problem [body weights, body weights ×
-/// leg length]. Walks of people leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops between the
+/// leg length]. Solved walks leave at most 0.003 (docs/measured/OPTIMAL_WALK.md); a body that hops between the
 /// instants leaves more.
 pub const LARGEST_BETWEEN: f64 = 0.01;
 

@@ -30,7 +30,7 @@ pub struct OptimalWalk {
     pub human: Human,
     /// The problem that was solved.
     pub problem: WalkProblem,
-    /// Its solution.
+    /// Solution of the problem.
     pub solution: Solution,
     /// The conditions that it was predicted for, with the names of coordinates for all joints.
     pub conditions: WalkConditions,
@@ -78,7 +78,7 @@ impl OptimalWalk {
         Ok(found)
     }
 
-    /// The figure with the soles of its plan, which are wider than those of the planar figure.
+    /// The figure with the soles of its plan, which are wider than the soles of the planar figure.
     #[must_use]
     pub fn figure(&self) -> Human {
         Human { soles: self.problem.problem.soles.clone(), ..self.human.clone() }

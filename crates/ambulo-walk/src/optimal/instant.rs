@@ -4,13 +4,14 @@
 //! With the spatial wrench W of the ground on a foot and the axes S of the links that carry it (as in
 //! [`crate::dynamics::inverse_derivatives`]), the ground force adds to the generalised forces and their derivatives
 //!
-//!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
+//!   τ_j = ... - S_jᵀ W        ∂τ_j/∂q̇_k = ... - S_jᵀ ∂W/∂q̇_k
+//!   ∂τ_j/∂q_k = ... - S_jᵀ ∂W/∂q_k - (S_k × S_j)ᵀ W  if k carries j
 //!
 //! The contact point of a sphere with radius r and centre p is c = (p_x, (p_y - r)/2, p_z), midway between both
-//! surfaces as in the simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, that of
-//! the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p, and changes the velocity
-//! of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f'' q̇_k to the
-//! latter, and -(s f'')ᵀ W to ∂τ_k/∂q_k.
+//! surfaces as in the simulator (above a surface at height h it is higher by h); its velocity is u = v + ω × c, the
+//! velocity of the body. Coordinate q_k of link k moves the centre by ∂p/∂q_k, the velocity of S_k at p, and changes
+//! the velocity of the body by ∂V/∂q_k = S_k × (V - V_k). An axis that follows a curve f of its coordinate adds s f''
+//! q̇_k to the latter, and -(s f'')ᵀ W to ∂τ_k/∂q_k.
 
 use crate::contact::{ContactSlopes, HuntCrossley};
 use crate::dynamics::{CurvedJointError, DerivativeKernel, Spatial};
@@ -35,7 +36,7 @@ pub struct ContactValues {
     pub slip: [f64; 2],
     /// Position of the centre of the sphere along x [m].
     pub place_x: f64,
-    /// The same along z [m].
+    /// Position of the centre of the sphere along z [m].
     pub place_z: f64,
 }
 
@@ -49,13 +50,13 @@ impl ContactValues {
 /// Forces of one instant, and their derivatives.
 #[derive(Debug, Clone, Default)]
 pub struct Instant {
-    /// Of all coordinates.
+    /// Values, rates and accelerations of all coordinates.
     pub posture: Posture,
     /// Generalised forces [N.m or N].
     pub forces: Vec<f64>,
     /// Their derivatives, one row per force: by all positions, then rates, then accelerations.
     pub slopes: Vec<f64>,
-    /// One per sphere.
+    /// Contacts, one per sphere.
     pub contacts: Vec<Contact>,
 }
 
@@ -80,7 +81,7 @@ pub struct Evaluator {
     levels: Vec<f64>,
     /// Links that carry each body, the one that moves the body directly first.
     chains: Vec<Vec<usize>>,
-    /// Coupled coordinates: their own number, that of their leader, and the coupler.
+    /// Coupled coordinates: their own number, the number of their leader, and the coupler.
     couplers: Vec<(usize, usize, Function)>,
 }
 
@@ -147,8 +148,8 @@ impl Evaluator {
         Ok(Evaluator { kernel, soles: soles.to_vec(), levels, chains, couplers })
     }
 
-    /// Numbers of the coordinates on which the force of a coordinate depends: those of links that carry its link or are
-    /// carried by it. Forces of the ground depend on the links that carry the foot, which all carry each other.
+    /// Numbers of the coordinates on which the force of a coordinate depends: coordinates of links that carry its link
+    /// or are carried by it. Forces of the ground depend on the links that carry the foot, which all carry each other.
     pub(super) fn related(&self, coordinate: usize) -> Vec<usize> {
         let links = &self.kernel.links;
         let chain = |link: usize| std::iter::successors(Some(link), |&carried| links[carried].before);
@@ -162,7 +163,7 @@ impl Evaluator {
         related
     }
 
-    /// Coupled coordinates take the values that follow from those of their leaders.
+    /// Coupled coordinates take the values that follow from their leaders.
     fn follow_leaders(&self, [q, qd, qdd]: &mut Posture) {
         for (follower, leader, function) in &self.couplers {
             let (rate, acceleration) = (qd[*leader], qdd[*leader]);
@@ -270,7 +271,7 @@ impl Evaluator {
         }
     }
 
-    /// The contact of one sphere, whose values it sets.
+    /// Computes the contact of one sphere and sets its values.
     fn meet(&self, law: &HuntCrossley, lane: usize, sphere: usize, contact: &mut Contact) -> Touch {
         let sole = &self.soles[sphere];
         let body = sole.body.index();

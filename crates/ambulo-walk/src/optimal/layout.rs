@@ -3,7 +3,7 @@
 //!
 //! Knots are uniform. Over knot interval i, coordinate c is q_c(s) = Σ_j w_j(u) x_{i+j, c}, j = 0..5, with the cardinal
 //! splines w_j of [`crate::numerics::quintic_splines`] and u the position in the interval. Block k of the unknowns has
-//! coefficient k of every coordinate. In a repeated motion, blocks beyond the last knot equal those of the start, or
+//! coefficient k of every coordinate. In a repeated motion, blocks beyond the last knot equal the first blocks, or
 //! their mirror images.
 
 use crate::model::{CoordinateId, Model, Movement, Side};

@@ -1,7 +1,7 @@
 //! Optimal motion: computes the motion of a body on the ground that minimises an objective, without residual forces.
 //!
 //! A [`Problem`] has a body on soft shoes, a span of time and an objective. Its unknowns are splines of all
-//! coordinates, including those of the root. Each posture determines its contact forces, and inverse dynamics computes
+//! coordinates, including the root's. Each posture determines its contact forces, and inverse dynamics computes
 //! the joint forces from both, so neither forces nor velocities are unknown. The residual forces at the root must be
 //! zero at all instants.
 //!

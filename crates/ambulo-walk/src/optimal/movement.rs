@@ -3,7 +3,7 @@
 //!
 //! Key postures give the first guess: joint angles change smoothly from one to the next, the soles are level, and the
 //! lowest sphere touches the ground. Only the first and the last key are part of the problem: there the figure rests.
-//! What happens in between is decided by requirements and by what muscles cost.
+//! The motion in between follows from requirements and from the cost of muscles.
 
 use super::conditions::WalkConditions;
 use super::instant::{Evaluator, Instant};
@@ -207,19 +207,19 @@ impl MovementProblem {
 pub enum MovementError {
     /// Keys without a beginning and an end.
     Keys {
-        /// How many keys there are.
+        /// Number of keys found.
         count: usize,
     },
     /// The first key that does not follow the one before, or does not begin at 0.
     Time {
-        /// Its number, from 1.
+        /// Number of the key, from 1.
         key: usize,
-        /// Its time [s].
+        /// Time of the key [s].
         time_s: f64,
-        /// It must be later than this, or for the first key be this [s].
+        /// The time must be later than this; the time of the first key must equal it [s].
         after_s: f64,
     },
-    /// A joint that is not made of hinges and slides.
+    /// A joint with other motions than hinges and slides.
     Joint(CurvedJointError),
 }
 
@@ -262,7 +262,7 @@ fn checked(keys: &[Key]) -> Result<f64, MovementError> {
     Ok(last.time_s)
 }
 
-/// Coordinates at all instants of a problem, whose first `soles` spheres are those of the feet.
+/// Coordinates at all instants of a problem, whose first `soles` spheres belong to the feet.
 fn first_guess(
     problem: &Problem,
     soles: usize,
@@ -354,7 +354,7 @@ pub(super) struct End<'a> {
     /// Coordinates [rad, m] and rates [rad/s, m/s].
     pub(super) place: &'a [f64],
     pub(super) rates: &'a [f64],
-    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only those of joints,
+    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only coordinates of joints,
     /// roughly.
     pub(super) is_exact: bool,
 }

@@ -1,4 +1,4 @@
-//! The part of an objective that muscles have: metabolic power, moments relative to strength, and smooth motion.
+//! The terms of an objective that belong to muscles: metabolic power, moments relative to strength, and smooth motion.
 //!
 //! The largest costs are metabolic power by the efficiencies of muscles (Margaria 1968; unverified), 0.25 for positive
 //! and 1.2 for negative work, and muscle moments relative to strength. All costs are relative to the size of the body
@@ -244,7 +244,7 @@ impl<'a> MuscleTerms<'a> {
     }
 }
 
-/// Share of the cycle by which the cycle of a coordinate's leg is ahead of that of the right leg.
+/// Share of the cycle by which the cycle of a coordinate's leg is ahead of the cycle of the right leg.
 pub(super) fn ahead_of(name: &str) -> f64 {
     if Side::split_name(name).is_some_and(|(side, _)| side == Side::Left) { 0.5 } else { 0.0 }
 }

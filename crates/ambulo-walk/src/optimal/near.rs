@@ -2,7 +2,7 @@
 //! of them.
 //!
 //! The start differs from the new first guess as the known solution differs from its own guess; translations grow with
-//! leg length. So what the solver found out about the walk is kept, and what the targets say about the change is added.
+//! leg length. So the result of the solver for the walk is kept, and the change of the targets is added.
 //! Feet of this start slip by some mm/s and their soles are too deep or too high by fractions of a millimetre, which
 //! costs much with the final friction and slack; the first stages have less of both.
 

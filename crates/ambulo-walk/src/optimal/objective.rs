@@ -63,9 +63,9 @@ pub enum Quantity {
 pub enum Bound {
     /// All.
     Near,
-    /// Only those of values below the target.
+    /// Only deviations of values below the target.
     AtLeast,
-    /// Only those of values above the target.
+    /// Only deviations of values above the target.
     AtMost,
 }
 

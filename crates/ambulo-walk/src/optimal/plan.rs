@@ -57,8 +57,8 @@ impl WalkPlan {
         Ok(WalkPlan::built_in(build.table)?.into_iter().find(|plan| plan.build == *build && plan.is_for(walk)))
     }
 
-    /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to that of a
-    /// walk, and its walk; none for a gait without normative curves.
+    /// The built-in plan of a figure with the same table of segments whose dimensionless speed is nearest to the speed
+    /// of a walk, and its walk; none for a gait without normative curves.
     ///
     /// # Errors
     /// None of the built-in plans; a test reads them.

@@ -3,7 +3,7 @@
 //! From recordings come speed and cadence, the instants at which the feet must be clear of the ground, and the start of
 //! the solver: the walk near normative curves, whose weight falls to zero stage by stage.
 //!
-//! The costs are those of `muscles`, and the rates of joint moments.
+//! The costs are the costs of `muscles`, and the rates of joint moments.
 
 use super::conditions::{Device, WalkConditions};
 use super::muscles::{EffortCosts, MuscleTerms, WORK_PRICES, ahead_of};
@@ -26,7 +26,7 @@ const SLOPE_STEP: f64 = 0.08;
 pub struct Prediction {
     /// The problem without normative targets.
     pub problem: WalkProblem,
-    /// Its solution.
+    /// Solution of the problem.
     pub solution: Solution,
 }
 
@@ -141,13 +141,13 @@ impl MuscleTerms<'_> {
     }
 }
 
-/// Metabolic power that does not depend on the motion [W/kg]; of standing people (Ralston 1958; unverified).
+/// Metabolic power that does not depend on the motion [W/kg]; measured in standing (Ralston 1958; unverified).
 const RESTING: f64 = 1.4;
 /// Instants of a cycle at which power is computed.
 const POWER_INSTANTS: usize = 400;
 
 /// Metabolic power of a walk by a simple formula [W/kg of the body without a load]: positive joint work costs
-/// [`WORK_PRICES`], negative work less, and 1.4 W/kg are always needed. Joint power is that of the joint moments
+/// [`WORK_PRICES`], negative work less, and 1.4 W/kg are always needed. Joint power is the power of the joint moments
 /// without devices.
 ///
 /// # Errors

@@ -81,7 +81,7 @@ pub(super) struct Transcription<'a> {
     pub(super) stage: Stage,
     /// Coordinates of the root, and the scale of their forces.
     root: Vec<(usize, f64)>,
-    /// One per instant and coordinate of the root.
+    /// Multipliers, one per instant and coordinate of the root.
     multipliers: Vec<f64>,
     instants: Vec<Instant>,
     /// The instants at which the normal equations were computed.

@@ -14,9 +14,9 @@ use std::fmt;
 pub struct Progress {
     /// Steps of the solver.
     pub steps: usize,
-    /// Sum of squares at the start, including that of the constraints.
+    /// Sum of squares at the start, including constraints.
     pub from: f64,
-    /// The same at the end.
+    /// Sum of squares at the end, including constraints.
     pub cost: f64,
     /// Residual forces at the root: root mean square and maximum [body weights, body weights × length].
     pub root: (f64, f64),
@@ -52,7 +52,7 @@ pub struct Sample {
     pub time_s: f64,
     /// Coordinates [rad or m], their rates and their accelerations.
     pub posture: [Vec<f64>; 3],
-    /// Generalised force per coordinate [N.m or N]; those of the root are residual forces.
+    /// Generalised force per coordinate [N.m or N]; forces of the root are residual forces.
     pub forces: Vec<f64>,
     /// Contact with the ground per sphere of the problem.
     pub contacts: Vec<SoleContact>,

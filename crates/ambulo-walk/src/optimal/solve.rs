@@ -1,8 +1,8 @@
 //! The solution: Levenberg and Marquardt's method inside an augmented Lagrangian.
 //!
 //! A step solves (A + λ diag A) Δ = -b with the normal equations A, b of the residuals. The damping λ changes with the
-//! ratio of the decrease of the cost to that of its quadratic model, -bᵀΔ + λ Δᵀ diag A Δ (Levenberg 1944, Marquardt
-//! 1963; unverified).
+//! ratio of the decrease of the cost to the decrease of its quadratic model, -bᵀΔ + λ Δᵀ diag A Δ (Levenberg 1944,
+//! Marquardt 1963; unverified).
 //!
 //! A multiplier m stands for the force m / s² of its constraint, where s is the slack. This force is kept from stage to
 //! stage, so m changes with s².
@@ -112,7 +112,7 @@ impl Problem {
 
 impl Problem {
     /// A solution as it is, or solved on by one attempt after the other while it leaves forces at the root. Its
-    /// progress is that of all attempts.
+    /// progress covers all attempts.
     pub(super) fn balanced(
         &self,
         mut solution: Solution,
@@ -191,7 +191,7 @@ impl<'a> Method<'a> {
         self.transcription.cost()
     }
 
-    /// Improves the unknowns; the number of steps taken. Before and after, the instants are those of the unknowns.
+    /// Improves the unknowns; returns the number of steps taken. Before and after, the instants belong to the unknowns.
     fn minimise(&mut self, unknowns: &mut [f64], stage: &Continuation) -> usize {
         self.damping = self.damping.min(FIRST_DAMPING);
         let mut cost = self.transcription.cost();

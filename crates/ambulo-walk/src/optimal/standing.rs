@@ -1,9 +1,9 @@
 //! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
 //!
 //! A stop begins in a walk, when the left foot has left the ground, and ends at rest on both feet; a start ends in the
-//! walk before the left foot strikes. In between, what muscles cost decides, as in other movements. The first guess
-//! mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it is.
-//! Without bounds of the load on the ground, some starts hop, which is a local minimum.
+//! walk before the left foot strikes. In between, the cost of muscles is minimised, as in other movements. The first
+//! guess mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it
+//! is. Without bounds of the load on the ground, some starts hop, which is a local minimum.
 //!
 //! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the
 //! extrapolated mass centre x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
@@ -61,9 +61,9 @@ const START: Outline = Outline { duration: 0.9, joins: 0.42, swing: [0.68, 0.9],
 /// A stop and a start.
 #[derive(Debug, Clone)]
 pub struct StandingMovements {
-    /// From the walk to standing.
+    /// Movement from the walk to standing.
     pub stop: Solution,
-    /// From the posture in which the stop ends to the walk.
+    /// Movement from the posture in which the stop ends to the walk.
     pub start: Solution,
 }
 
@@ -112,7 +112,7 @@ impl StandingMovements {
     }
 }
 
-/// Whether a movement differs from the walk where it joins it.
+/// Whether a movement differs from the walk at the instant of their join.
 fn misses(solution: &Solution, walk: &Solution, is_start: bool) -> bool {
     let (outline, at_s) = if is_start { (START, solution.problem().duration_s) } else { (STOP, 0.0) };
     let [own, joined] = [solution.instant(at_s), walk.instant(outline.joins * walk.cycle_s())];

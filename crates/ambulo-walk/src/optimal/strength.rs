@@ -6,7 +6,7 @@
 //! Speed multiplies it by Hill's factor. With w > 0 the speed at which the muscles shorten:
 //!
 //!   f(w) = (2 c₄c₅ + w (c₅ - 3c₄)) / (2 c₄c₅ + w (2c₅ - 4c₄))     f(0) = 1, f(c₄) = 3/4, f(c₅) = 1/2, never below 0
-//!   f(-w) = 1 + (e - 1) w / (w + w_e)                               rising to e, with the slope of the other branch at w = 0
+//!   f(-w) = 1 + (e - 1) w / (w + w_e)                         rising to e, with the slope of the other branch at w = 0
 //!
 //! | code        | symbol | unit  | meaning                                              |
 //! | `at_75`     | c₄     | rad/s | speed at which 3/4 of the isometric moment remain    |

@@ -1,4 +1,4 @@
-//! The problem of walking: a figure walks at a given speed with mean curves of healthy people as targets.
+//! The problem of walking: a figure walks at a given speed with mean curves of healthy subjects as targets.
 
 pub(crate) mod passage;
 mod targets;
@@ -71,9 +71,9 @@ pub struct WalkCosts {
     pub ankle: f64,
     /// The same for the angular accelerations of these joints [rad/s²].
     pub acceleration: f64,
-    /// The same for that of the toes [rad/s²].
+    /// The same for the angular acceleration of the toes [rad/s²].
     pub toes: f64,
-    /// The same for those of the arms, and of other joints that are not named here [rad/s²].
+    /// The same for the angular accelerations of arms and other joints that are not named here [rad/s²].
     pub arms: f64,
     /// The same for the pelvis in the frontal and the transverse plane [rad].
     pub pelvis: f64,
@@ -90,11 +90,11 @@ pub struct WalkCosts {
     pub force_exponent: f64,
     /// Weight of the normative ground forces in a gait without normative curves; 0 leaves them out.
     pub others: f64,
-    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. People's sideways forces are no
+    /// Sideways ground force of a foot that costs 1 [body weights]: it should be small. Measured sideways forces are no
     /// target.
     pub sideways_force: f64,
-    /// Deviation of a joint moment from that of [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle
-    /// [body weight × leg length].
+    /// Deviation of a joint moment from [`JointMomentLaws`] that costs 1: extension of hip, knee and ankle [body weight
+    /// × leg length].
     pub moment: f64,
     /// The same for hip abduction [body weight × leg length].
     pub abduction: f64,
@@ -110,10 +110,10 @@ pub struct WalkCosts {
 
 impl WalkCosts {
     /// For a figure in the sagittal plane that walks in any gait at a constant pace. Fewer splines with more instants
-    /// each leave less of the forces at the root between the instants, which a simulation feels. Toes and arms must be
-    /// slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the cheapest way to supply what the
-    /// splines leave at the root, and the solver then finds no smoother walk. Forward forces are followed more closely
-    /// in slow walking, where they are small and yet make the speed rise and fall the most.
+    /// each leave less of the forces at the root between the instants, which acts in a simulation. Toes and arms must
+    /// be slow: they are so light that shaking them, toes by 1,000 to 5,000 rad/s², is the cheapest way to supply what
+    /// the splines leave at the root, and the solver then finds no smoother walk. Forward forces are followed more
+    /// closely in slow walking, where they are small and yet make the speed rise and fall the most.
     #[must_use]
     pub fn planar() -> WalkCosts {
         WalkCosts {
@@ -302,7 +302,7 @@ impl WalkProblem {
         if moves_sideways(&self.problem.model) { &SPATIAL_STAGES } else { &STAGES }
     }
 
-    /// Solves the problem from its first guess. If forces at the root remain, it goes on with the last stage, then from
+    /// Solves the problem from its first guess. If forces at the root remain, it repeats the last stage, then from
     /// the middle stage on, and then with the last one again.
     ///
     /// # Errors
@@ -383,7 +383,7 @@ impl Builder<'_> {
         vec![Some(value); self.targets.len()]
     }
 
-    /// Adds terms for angle and acceleration of a coordinate, with those of the walk as targets.
+    /// Adds terms for angle and acceleration of a coordinate, with the walk's as targets.
     fn follow(&mut self, id: CoordinateId, angle: f64, acceleration: f64) {
         let name = self.model.coordinates()[id.index()].name.clone();
         let part = |d: usize| self.targets.iter().map(|t| Some(t.posture[d][id.index()])).collect::<Vec<_>>();

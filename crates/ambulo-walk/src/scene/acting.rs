@@ -1,4 +1,4 @@
-//! What acts on a coordinate of a joint.
+//! Drive, spring, motor, limits and friction of a coordinate of a joint.
 
 use super::coordinate::CoordinateEntry;
 use super::joint_axes::MotionKind;

@@ -60,7 +60,7 @@ pub struct Scene {
     pub(super) checks: SceneChecks,
     /// Poses at the beginning of the last step, to which its forces belong; only if there are figures.
     pub(super) before: Vec<Pose>,
-    /// Whether the velocities at the start are those of half a step earlier.
+    /// Whether the velocities at the start belong to half a step earlier.
     pub(super) starts_early: bool,
     /// Number of steps that were made before this run.
     pub(super) resumed: usize,
@@ -68,7 +68,7 @@ pub struct Scene {
     pub(super) probe: StepWorkspace,
 }
 
-/// Settings that replace those of the file.
+/// Settings that replace settings of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SceneSettings {
     /// Time step [s].
@@ -171,7 +171,7 @@ pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings
 }
 
 /// Gives figures whose motion before the start is known the velocities of half a time step earlier, where velocities
-/// are those of the middle of a step (`Walker::moving_as`). Returns whether there are any.
+/// belong to the middle of a step (`Walker::moving_as`). Returns whether there are any.
 fn start_half_a_step_earlier(state: &mut WorldState, figures: &[PlacedFigure], settings: &StepSettings) -> bool {
     if settings.integrator != Integrator::Impulse {
         return false;

@@ -53,7 +53,7 @@ pub struct WalkEntry {
     pub mode: FigureWalkMode,
     /// Phase at which the scene begins, as a share of the cycle from a right foot strike.
     pub phase: f64,
-    /// Changes of pace after those of the gait.
+    /// Changes of pace after the changes of the gait.
     pub changes: Vec<PaceChange>,
     /// Height by which soles are lifted further than usual [m].
     pub lift: f64,
@@ -81,7 +81,7 @@ pub enum FigureWalkMode {
     Curves,
 }
 
-/// A coordinate with a drive, motor, spring or start of its own.
+/// A coordinate with its own drive, motor, spring or start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuiltCoordinate {
     /// Line of its header.
@@ -120,13 +120,13 @@ pub struct ControlEntry {
 /// Keys of a built-in figure.
 pub(super) const KEYS: &[&str] =
     &["name", "build", "walk", "arms", "shoes", "coordinate", "control", "at", "rotation", "sphere"];
-/// Soles are not lifted further [m].
+/// Largest additional lift of soles [m].
 const MOST_LIFT_M: f64 = 0.1;
-/// Feedback that is later comes when the figure lies on the ground [s].
+/// Largest delay of feedback [s]: with a longer one the figure has already fallen.
 const MOST_DELAY_S: f64 = 0.2;
 /// Why a figure in three dimensions needs a controller.
 const CONTROLLED: &str = "a controller, as in `control = {}`: a figure in three dimensions walks by its own torques";
-/// Larger abductions of an arm are mistakes [rad].
+/// Largest abduction of an arm [rad].
 const MOST_ABDUCTION: f64 = std::f64::consts::FRAC_PI_2;
 
 impl BuiltFigure {

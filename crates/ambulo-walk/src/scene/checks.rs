@@ -17,13 +17,13 @@ const SPARE_STEPS: f64 = 10.0;
 const OPEN_M: f64 = 1e-3;
 const OPEN_RAD: f64 = 1e-2;
 
-/// What is checked after each step.
+/// Checks after each step.
 #[derive(Debug, Clone)]
 pub(super) struct SceneChecks {
     /// Watches the energy until it has risen; `None` where it may rise.
     watch: Option<EnergyWatch>,
     has_risen: bool,
-    /// Time at which the energy is watched anew, because an event closes a loop until then [s].
+    /// Time at which the check of the energy restarts, because an event closes a loop until then [s].
     anew_at_s: Option<f64>,
     /// Time from which each closure must be closed [s]; infinite once it was reported.
     closed_from_s: Vec<f64>,

@@ -41,8 +41,8 @@ impl Closing {
         }
     }
 
-    /// `first_from_joint` and `second_from_joint` for these poses of both: axes as they are now in the world, points
-    /// where they are fixed.
+    /// `first_from_joint` and `second_from_joint` for these poses of both bodies: the axes keep their present
+    /// directions in the world, the points are fixed in the bodies.
     pub(super) fn frames(&self, first: &Pose, second: &Pose) -> (Pose, Pose) {
         let points = [self.on_first.map(|p| first.place(p)), self.on_second.map(|p| second.place(p))];
         let [a, b] = match points {

@@ -36,14 +36,14 @@ pub enum Anchor {
     },
     /// A point of each body, in its frame [m].
     Points {
-        /// In the frame of the first body.
+        /// Point in the frame of the first body.
         on_first: Vec3,
-        /// In the frame of the second body.
+        /// Point in the frame of the second body.
         on_second: Vec3,
     },
     /// A point of the first body, and the point of the second one that is there when the closure becomes active.
     AsFound {
-        /// In the frame of the first body [m].
+        /// Point in the frame of the first body [m].
         on_first: Vec3,
     },
 }

@@ -16,13 +16,13 @@ use crate::optimal::Solution;
 /// A figure with a controller, its plan and its settings, without the rest of its scene.
 #[derive(Debug, Clone)]
 pub struct ControlledFigure {
-    /// Its name.
+    /// Name of the figure.
     pub name: String,
     /// Place of its key `control` in the file.
     pub place: Place,
     /// The figure with the soles of its plan.
     pub human: Human,
-    /// Its plan at the speed at which it starts.
+    /// Plan of the figure at its initial speed.
     pub plan: Solution,
     /// Settings of the steps of the scene.
     pub step: StepSettings,

@@ -36,12 +36,12 @@ pub struct FigureEntry {
     pub spheres: Vec<SphereEntry>,
 }
 
-/// The coordinates of a figure that follow its recording, except those of the root.
+/// The coordinates of a figure that follow its recording, except the root's.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DrivenCoordinates {
     /// All.
     All,
-    /// None: the figure is passive and starts in the posture of the recording.
+    /// No coordinate: the figure is passive and starts in the posture of the recording.
     Nothing,
     /// The named ones, in the order of the file.
     Only(Vec<String>),
@@ -52,7 +52,7 @@ pub enum DrivenCoordinates {
 pub enum RootMotion {
     /// Forces move them.
     Free,
-    /// They follow the recording.
+    /// The coordinates of the root follow the recording.
     Driven,
 }
 

@@ -23,7 +23,7 @@ pub struct JointEntry {
     pub child: usize,
     /// Initial position of the joint's centre in the world [m].
     pub at: Vec3,
-    /// One per free motion, in the order of [`JointAxes::coordinates`].
+    /// Coordinates, one per free motion, in the order of [`JointAxes::coordinates`].
     pub coordinates: Vec<CoordinateEntry>,
 }
 

@@ -17,7 +17,7 @@ pub enum MotionKind {
 /// added later: when it becomes active).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointAxes {
-    /// None.
+    /// No free motion.
     Weld,
     /// A rotation about an axis fixed in both bodies.
     Revolute {
@@ -42,7 +42,7 @@ pub enum JointAxes {
     Planar {
         /// At right angles to the plane, fixed in the parent.
         normal: Vec3,
-        /// In the plane, fixed in the parent.
+        /// Direction in the plane, fixed in the parent.
         along: Vec3,
     },
     /// All motions: rotations as for a ball joint, then translations along x, y, z of the parent, which are the world's

@@ -28,9 +28,9 @@ pub enum MaterialLaw {
     Regularised {
         /// Coulomb's coefficient, zero or more.
         friction: f64,
-        /// Per contact point [N/m], above zero.
+        /// Stiffness per contact point [N/m], above zero.
         stiffness: f64,
-        /// Per contact point [N.s/m], zero or more.
+        /// Damping per contact point [N.s/m], zero or more.
         damping: f64,
     },
     /// Hunt and Crossley's law as in OpenSim's `SmoothSphereHalfSpaceForce`: a force that depends on the depth, no

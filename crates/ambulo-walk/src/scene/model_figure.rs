@@ -375,7 +375,7 @@ pub(super) fn add_spheres(
 /// A joint of the simulator as described in scene files.
 struct FreeJoint {
     kind: JointAxes,
-    /// Its coordinates at the start, in the order of scene files.
+    /// Coordinates of the joint at the start, in the order of scene files.
     values: Vec<f64>,
 }
 

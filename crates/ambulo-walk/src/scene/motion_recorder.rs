@@ -1,6 +1,6 @@
 //! Records a figure of a scene that follows a recording, step by step, for its verdict.
 //!
-//! Coordinates that follow the recording are those of their signals. The others, of passive joints and of a free root,
+//! Coordinates that follow the recording equal their signals. The others, of passive joints and of a free root,
 //! are found from the pose T of a body on its parent: Newton steps on J Δq = the rotation and translation that T(q)
 //! lacks, where J is the motion of the joint per unit rate of its coordinates, and J q̇ = relative velocity of the
 //! bodies for the rates.
@@ -39,7 +39,7 @@ pub struct FigureMotion {
     pub trajectory: Trajectory,
     /// Forces of obstacles on bodies of the figure.
     pub ground: Vec<ObstacleForces>,
-    /// All forces of the scene on the figure: those of obstacles, and contacts, loops and joints with other bodies.
+    /// All forces of the scene on the figure: of obstacles, and of contacts, loops and joints with other bodies.
     pub loads: Vec<LoadSeries>,
 }
 
@@ -121,7 +121,7 @@ impl MotionRecorder {
         self.of_ground.first().map_or(0, Vec::len)
     }
 
-    /// Coordinates and rates now; those that follow no signal start at the last ones.
+    /// Coordinates and rates now. For coordinates without a signal, the search starts at their last values.
     fn read(&self, state: &WorldState) -> [Vec<f64>; 2] {
         let mut q = self.now[0].clone();
         let mut rates = vec![0.0; q.len()];
@@ -181,7 +181,7 @@ impl MotionRecorder {
         }
     }
 
-    /// Records a step. The posture is that of its start; velocities of free coordinates belong to the middle of steps.
+    /// Records a step. The posture belongs to its start; velocities of free coordinates belong to the middle of steps.
     pub(super) fn after_step(
         &mut self,
         world: &World,

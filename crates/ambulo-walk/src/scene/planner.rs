@@ -1,4 +1,5 @@
-//! Plans and controllers of figures in a scene: walks without outside forces, and who follows them by torques.
+//! Plans and controllers of figures in a scene: walks without external forces, and controllers that follow them by
+//! torques.
 
 use super::SceneError;
 use super::built_entry::{ControlEntry, FigureWalkMode, WalkEntry};
@@ -11,7 +12,7 @@ use crate::model::anthropometry::Build;
 use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::walking::TorqueSeries;
 
-/// Duration of a change of speed without one of its own [s].
+/// Default duration of a change of speed [s].
 const CHANGE_S: f64 = 2.0;
 
 /// Plans walks of a figure.
@@ -134,7 +135,7 @@ impl Planner<'_> {
         Ok(settings)
     }
 
-    /// Speeds over time. A figure that stands at the start has no plan of its own speed.
+    /// Speeds over time. A figure that stands at the start has no plan at its speed.
     fn schedule(&self, sources: &mut InputFiles<'_, '_>) -> Result<SpeedSchedule, SceneError> {
         let place = &self.entry.place;
         let human = self.build.human().map_err(|e| place.error(chain(&e)))?;

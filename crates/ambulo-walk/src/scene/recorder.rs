@@ -1,4 +1,4 @@
-//! Records figures of a scene for their verdicts: those that walk, and those that follow a recording.
+//! Records the walking figures of a scene, and figures that follow a recording, for their verdicts.
 
 use super::motion_recorder::{FigureMotion, MotionRecorder};
 use crate::control::{FigureRecorder, FigureWalk};

@@ -224,7 +224,7 @@ impl Scene {
         Ok(statistics)
     }
 
-    /// Passes the frame of the last instant to the caller: its forces are those of a step that would begin there.
+    /// Passes the frame of the last instant to the caller: its forces belong to a step that would begin there.
     fn show_end(
         &self,
         impacts: Vec<(f64, ContactForce)>,

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// Reads a file: takes its path as written in the scene, returns its bytes or an error message.
 pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
-/// A walk without outside forces, and what it was made of.
+/// A walk without external forces, and its source.
 pub(super) struct PlannedWalk {
     pub(super) build: Build,
     pub(super) entry: WalkEntry,

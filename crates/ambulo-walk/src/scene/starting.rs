@@ -6,7 +6,7 @@ use crate::engine::joint::Frames;
 use crate::engine::world::World;
 use crate::spatial::{Pose, Twist, Vec3};
 
-/// Sets the twists of the file's bodies; those of figures are already set. `rates` are the coordinate rates of the
+/// Sets the twists of the file's bodies; twists of figures are already set. `rates` are the coordinate rates of the
 /// file's joints, which come first in the world.
 pub(super) fn start_moving(world: &mut World, file: &SceneFile, rates: &[Vec<f64>]) {
     let joint_of = world.joint_of_body();
@@ -31,7 +31,7 @@ struct Relative {
     angular: Vec3,
     /// Velocity of the origin of C.
     at_joint: Vec3,
-    /// From the origin of C to the child's mass centre.
+    /// Vector from the origin of C to the child's mass centre.
     to_center: Vec3,
 }
 

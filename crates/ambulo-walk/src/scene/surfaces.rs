@@ -1,4 +1,4 @@
-//! Converts shapes and materials of a scene to those of the simulator.
+//! Converts shapes and materials of a scene to shapes and materials of the simulator.
 
 use super::material::{MaterialEntry, MaterialLaw};
 use super::obstacle::ObstacleShape;

@@ -4,7 +4,7 @@ use super::SceneError;
 use crate::control::TrackingCosts;
 use crate::toml_reader::Table;
 
-/// A cost may be so many times the usual one, and as small a share of it: beyond, rounding decides about the feedback.
+/// Largest ratio between a cost and its default, upwards and downwards; beyond it, rounding determines the feedback.
 const MOST: f64 = 1000.0;
 
 /// The costs of the table `costs` of `control`; the usual ones where it has none.

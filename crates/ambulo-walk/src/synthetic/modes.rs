@@ -56,7 +56,7 @@ pub fn synthesise(
     }
 }
 
-/// Predicts a walk under some conditions. The mode of the settings is [`SyntheticMode::Predicted`], whatever they say.
+/// Predicts a walk under some conditions. The mode is always [`SyntheticMode::Predicted`]; `settings.mode` is ignored.
 ///
 /// # Errors
 /// As [`synthesise`]; conditions that do not fit the figure, or that its muscles are too weak for.
@@ -204,7 +204,7 @@ pub fn run_of_states(
     Ok(())
 }
 
-/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are let go
+/// Replays torques without feedback: the gait is walked in the paper's mode, then its joints and its trunk are released
 /// at a nominal strike of the right foot, and the torques act instead. The walk ends shortly after the figure falls;
 /// the kept part begins a cycle before the release.
 ///
@@ -248,9 +248,9 @@ pub fn replay(
     steady(settings, &kept, human, walk, Made { recording: &recording, states, correction: None, torques: Vec::new() })
 }
 
-/// Torques hold a figure of the mass that they were computed for.
+/// Torques are valid for a figure of the mass for which they were computed.
 fn report_other_figure(torques: &[TorqueSeries], body_kg: f64, findings: &mut Findings) {
-    /// Masses that differ by less, as a share, are one figure's.
+    /// Largest relative difference between masses of one figure.
     const SAME_FIGURE: f64 = 0.01;
     let is_other = |series: &&TorqueSeries| (series.body_kg / body_kg - 1.0).abs() > SAME_FIGURE;
     if let Some(series) = torques.iter().find(is_other) {

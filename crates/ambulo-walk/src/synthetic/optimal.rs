@@ -24,7 +24,7 @@ pub(super) fn optimal(
     made(settings, walk, &kept, found)
 }
 
-/// The predicted mode: as the optimal one, from the solution of muscles that work as little as they can.
+/// The predicted mode: as the optimal mode, from a walk that minimises muscle effort.
 pub(super) fn predicted(
     settings: &SyntheticWalkSettings<'_>,
     conditions: &WalkConditions,
@@ -94,7 +94,7 @@ fn made(
     })
 }
 
-/// Cycles in which a whole stance of each foot is looked for.
+/// Number of cycles that are searched for a whole stance of each foot.
 const STRIDES_OF_SLIP: usize = 3;
 
 fn trajectory(model: &Model, solution: &Solution, start_s: f64, grid: TimeGrid) -> Result<Trajectory, TrajectoryError> {

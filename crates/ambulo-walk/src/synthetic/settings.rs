@@ -15,8 +15,7 @@ use std::ops::RangeInclusive;
 /// How a walk is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SyntheticMode {
-    /// In three dimensions, found by optimal motion on soft shoes: no force but those of its own joints and of the
-    /// ground.
+    /// In three dimensions, found by optimal motion on soft shoes: only joint forces and ground forces act.
     Optimal,
     /// In three dimensions, predicted: minimises muscle effort instead of following normative curves.
     Predicted,

@@ -150,13 +150,13 @@ impl KeptPart {
         }
     }
 
-    /// Of a simulation that ended after some rows.
+    /// The kept part of a simulation that ended after some rows.
     pub(super) fn of_rows(settings: &SyntheticWalkSettings<'_>, first: usize, rows: usize) -> KeptPart {
         let frames = rows.saturating_sub(first + 1) / settings.steps_per_frame() + 1;
         KeptPart { first, frames, simulated_s: rows as f64 * settings.step_s() }
     }
 
-    /// Of a walk with machines, for the duration of their plan.
+    /// The kept part of a walk with machines, for the duration of their plan.
     pub(super) fn of_duration(settings: &SyntheticWalkSettings<'_>, first: usize, kept_s: f64) -> KeptPart {
         let frames = (kept_s * settings.rate_hz).ceil() as usize + 1;
         let start_s = first as f64 * settings.step_s();
@@ -186,7 +186,7 @@ impl KeptPart {
         self.states_told(settings, walk, &mut |_| {})
     }
 
-    /// The same; reports each change while the machines run.
+    /// As `states`, and reports each change while the machines run.
     pub(super) fn states_told(
         &self,
         settings: &SyntheticWalkSettings<'_>,

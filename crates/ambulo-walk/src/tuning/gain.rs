@@ -4,7 +4,7 @@ use crate::control::{ControlError, ControlSettings};
 use crate::numerics::Shown;
 use std::f64::consts::PI;
 
-/// Digits of a gain that was found: more would suggest that trials tell them apart.
+/// Digits of a gain that was found: trials do not resolve more.
 const DIGITS: usize = 4;
 /// Radians per degree, as scenes read degrees.
 const DEGREE: f64 = PI / 180.0;
@@ -12,9 +12,9 @@ const DEGREE: f64 = PI / 180.0;
 /// A setting of a controller that can be tuned.
 #[derive(Debug, Clone, Copy)]
 pub struct Gain {
-    /// Its key in the `control` table of a scene, or in the table `costs` of it.
+    /// Key of the gain in the `control` table of a scene, or in its table `costs`.
     pub name: &'static str,
-    /// Its unit in scenes.
+    /// Unit of the gain in scenes.
     pub unit: &'static str,
     /// Least and largest value, in this unit.
     pub bounds: [f64; 2],
@@ -38,20 +38,20 @@ pub enum GainError {
     /// A gain is listed twice, or there is none.
     #[error("found {found}; expected each gain once, at least one")]
     Count {
-        /// The gain, or that there is none.
+        /// The repeated gain, or `no gain`.
         found: String,
     },
     /// A gain starts outside its bounds.
     #[error("found `{name}` = {} {unit}; expected {} to {} {unit}, between which it is tuned", Shown(*value),
         Shown(bounds[0]), Shown(bounds[1]))]
     Bounds {
-        /// Its name.
+        /// Name of the gain.
         name: &'static str,
-        /// Its value, in its unit.
+        /// Value, in the gain's unit.
         value: f64,
-        /// Its unit.
+        /// Unit of the gain.
         unit: &'static str,
-        /// Its bounds, in its unit.
+        /// Bounds, in the gain's unit.
         bounds: [f64; 2],
     },
     /// A walk without a controller.
@@ -114,8 +114,8 @@ impl Gain {
         if gains.is_empty() { Err(GainError::Count { found: "no gain".to_owned() }) } else { Ok(gains) }
     }
 
-    /// The gains that are usually tuned. Without the torque: all costs times one number are the same costs, so one of
-    /// them is their unit. A planar figure has no place sideways.
+    /// The gains that are usually tuned. The cost of torque is left out: a common factor of all costs changes nothing,
+    /// so one cost is the unit of the others. A planar figure has no place sideways.
     #[must_use]
     pub fn usual(in_three_dimensions: bool) -> Vec<Gain> {
         let is_usual = |gain: &Gain| match gain.name {
@@ -126,7 +126,7 @@ impl Gain {
         Gain::ALL.into_iter().filter(is_usual).collect()
     }
 
-    /// Its value in settings, in its unit.
+    /// Value of the gain in settings, in its unit.
     #[must_use]
     pub fn value(&self, settings: &ControlSettings) -> f64 {
         let mut settings = settings.clone();

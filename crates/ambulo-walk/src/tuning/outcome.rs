@@ -9,15 +9,15 @@ const EFFORT: f64 = 0.5;
 /// Weight of the error of the speed, as a share.
 const SPEED: f64 = 0.5;
 
-/// What became of a walk and its pushes.
+/// Cost and figures of a walk and its pushes.
 ///
-/// With the time t until a fall after the push and the time T that is asked for,
+/// With the time t until a fall after the push and the required time T,
 ///
 ///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
 ///
-/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E that of their
-/// torques as shares of their strength, V the mean difference of the speed from that of the plan, as a share of it.
-/// These three are those of level walking and of the pushes that were survived.
+/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad]. E is the same
+/// deviation of their torques as shares of their strength, V the mean difference between speed and planned speed, as a
+/// share of the planned speed. All three come from level walking and from the pushes that were survived.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TrialOutcome {
     /// The cost; without a number if there are no gains.
@@ -64,7 +64,7 @@ impl Sums {
         self.effort += effort;
     }
 
-    /// Adds the speed of a trial without a fall, over that of the plan.
+    /// Adds the speed of a trial without a fall, relative to the planned speed.
     pub fn speed(&mut self, share: f64) {
         self.speeds += 1.0;
         self.speed_error += (share - 1.0).abs();

@@ -37,8 +37,8 @@ pub struct TuningProblem {
 }
 
 impl TuningProblem {
-    /// A problem whose search starts from settings with feedback. Gains that are tuned start with the digits that gains
-    /// are written with, so that what is judged is what is written.
+    /// A problem whose search starts from settings with feedback. Tuned gains start rounded to the digits with which
+    /// gains are written, so the written gains are the judged ones.
     ///
     /// # Errors
     /// A gain that starts outside its bounds; a walk without a controller.
@@ -109,7 +109,7 @@ impl TuningProblem {
         self.controller.with_settings(&self.human, settings, &self.maps)
     }
 
-    /// What becomes of a walk with other settings, and of its pushes, which are in the order of their phases.
+    /// Simulates a walk with other settings, and its pushes, which are in the order of their phases.
     ///
     /// # Errors
     /// A walk that cannot be simulated.
@@ -134,8 +134,8 @@ impl TuningProblem {
         Ok(sums.outcome())
     }
 
-    /// A push at the present state of a walk, which goes on without it. Deviation and effort of a walk that ends in a
-    /// fall do not count: the fall does.
+    /// A push at the present state of a walk; the walk itself continues without it. Deviation and effort of a walk that
+    /// ends in a fall do not count: the fall does.
     fn pushed(&self, level: &PhysicalWalk, push: &Push, sums: &mut Sums) -> Result<(), ControlError> {
         let (mut walk, mut own) = (level.clone(), Sums::default());
         let (start_s, after_s) = (walk.time_s(), AFTER * self.plan.cycle_s());

@@ -23,7 +23,7 @@ const SMALLEST: f64 = 0.4;
 pub struct Push {
     /// Phase of the cycle at which it begins, 0 to 1.
     pub phase: f64,
-    /// Its direction about the vertical [rad]: 0 is forward, positive to the right.
+    /// Direction about the vertical [rad]: 0 is forward, positive to the right.
     pub direction: f64,
     /// Force for a figure of 75 kg [N].
     pub force_n: f64,
@@ -66,7 +66,7 @@ pub enum PushUse {
 }
 
 impl PushUse {
-    /// Number of the sequence of random numbers; 0 is that of the optimiser.
+    /// Number of the sequence of random numbers; 0 belongs to the optimiser.
     fn sequence(self) -> u64 {
         match self {
             PushUse::Choice => 1,
@@ -75,7 +75,7 @@ impl PushUse {
         }
     }
 
-    /// Pushes per push of a candidate: the choice and the report have more, because they decide.
+    /// Pushes per push of a candidate: the choice and the report use more, because they determine the result.
     #[doc(hidden)] // for tests
     pub fn times(self) -> usize {
         match self {

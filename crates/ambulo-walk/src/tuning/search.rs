@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Standard deviation of the natural logarithm of each gain at the start: a gain changes by a third.
 const FIRST_SIGMA: f64 = 0.3;
 
-/// The state of a search: plain numbers, from which it goes on as if it had not been interrupted.
+/// The state of a search. It can be saved; the search then continues with the same results.
 ///
 /// Candidates of a generation are compared by pushes that no other generation has. The mean of each generation is
 /// judged by one set of pushes that is always the same, and the mean that costs least there is the result; the first
@@ -39,11 +39,11 @@ pub struct Validated {
 pub struct Task {
     /// The point of the search.
     pub point: Vec<f64>,
-    /// Its settings.
+    /// Settings of the controller at this point.
     pub settings: ControlSettings,
-    /// Its pushes.
+    /// Pushes to simulate.
     pub pushes: Vec<Push>,
-    /// What the point costs because it lies outside the bounds.
+    /// Cost of the point for being outside the bounds.
     outside: f64,
 }
 
@@ -61,7 +61,7 @@ impl Tuning {
         Cma::candidates(gains) + 1
     }
 
-    /// Whether its numbers can be those of a search for so many gains, for one that was read from a file.
+    /// Whether a search that was read from a file has the numbers of a search for so many gains.
     #[must_use]
     pub fn is_valid(&self, gains: usize) -> bool {
         let known = [&self.start, &self.best].into_iter().flatten();

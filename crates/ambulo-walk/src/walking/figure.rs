@@ -74,7 +74,7 @@ pub struct Walker {
 
 impl Walker {
     /// Places a figure on the ground in the posture of its signals at time zero, with the mid-hip above x = 0 and
-    /// moving forwards at `speed_m_s`. `signals` has one entry per coordinate of the model [rad]; those of the root's
+    /// moving forwards at `speed_m_s`. `signals` has one entry per coordinate of the model [rad]; entries of the root's
     /// translations are not used.
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl Walker {
         self
     }
 
-    /// States that the walk goes on before its start, where it has this posture with rates and accelerations of all
+    /// States that the walk also exists before its start, where it has this posture with rates and accelerations of all
     /// coordinates.
     ///
     /// The simulator stores velocities at the middle of a time step, so the walk starts with velocities of half a step

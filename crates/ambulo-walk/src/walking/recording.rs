@@ -15,7 +15,7 @@ pub struct WalkRecording {
     /// Every coordinate of the model with rate and acceleration.
     pub trajectory: Trajectory,
     /// Moments of the drives [N.m], one column per coordinate of the model. The one of the root's rotation holds the
-    /// trunk from outside; those of the root's translations are zero.
+    /// trunk from outside; the columns of the root's translations are zero.
     pub efforts: Vec<Vec<f64>>,
     /// Ground reactions, right and left.
     pub feet: [FootRecord; 2],

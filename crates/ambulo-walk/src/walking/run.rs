@@ -21,7 +21,7 @@ const MOST_STEPS: usize = 1_200_000;
 pub struct Release<'a> {
     /// The torques, by coordinate.
     pub torques: &'a [TorqueSeries],
-    /// Time at which the drives of these coordinates and the hand at the trunk let go [s].
+    /// Time at which the drives of these coordinates and the support of the trunk end [s].
     pub time_s: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct WatchedTargets<'a> {
 
 /// A figure whose pelvis is lower than this share of its height at the release has fallen.
 const FALLEN: f64 = 0.75;
-/// So has one whose trunk is turned by more than this [rad].
+/// Tilt of the trunk beyond which a figure has fallen [rad].
 const FALLEN_TILT: f64 = std::f64::consts::FRAC_PI_3;
 /// Duration of the recording after a fall [s].
 const AFTER_FALL_S: f64 = 0.1;
@@ -108,7 +108,7 @@ impl Walker {
         recorder.finish(TimeGrid { start_s: 0.0, step_s, frames: rows })
     }
 
-    /// Walks until the drives let go, then with torques that know nothing of the motion, until the figure falls or for
+    /// Walks until the drives end, then with torques that do not depend on the motion, until the figure falls or for
     /// `duration_s`. Gives the walk, driven and then free, and the time from the release to the fall [s]; `None` if the
     /// figure has not fallen at the end.
     ///
@@ -267,7 +267,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Keeps the targets of a row; at the start they are those of the signals.
+    /// Keeps the targets of a row; at the start they equal the signals.
     fn read_targets(&mut self, targets: &GaitTargets, time_s: f64) {
         let count = self.walker.signals.len();
         self.targets = match self.columns.is_empty() || self.feet[0].force.is_empty() {

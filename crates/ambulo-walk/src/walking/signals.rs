@@ -149,7 +149,7 @@ impl GaitTargets {
 }
 
 /// The coordinate of an angle that a machine reads, and its sense. Hip, pelvis and trunk are parts of several
-/// coordinates: their angle is that of the machine that drives them.
+/// coordinates: their angle is the angle of the machine that drives them.
 fn read_angle(
     settings: &MachineSettings,
     name: &str,

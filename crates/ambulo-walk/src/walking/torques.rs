@@ -1,7 +1,7 @@
-//! Torques of the gait cycle as harmonics. Those of `ambulo reproduce` are replayed by a walker without feedback, those
-//! of a walk by own torques by a controller.
+//! Torques of the gait cycle as harmonics. `ambulo reproduce` replays them in a walker without feedback; a walk by own
+//! torques replays them in a controller.
 //!
-//!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))          t from the nominal foot strike of the right foot
+//!   τ(t) = mean + Σ_k (cosine_k cos(2π k t/T) + sine_k sin(2π k t/T))     t from the nominal strike of the right foot
 
 use crate::numerics::Harmonics;
 use crate::toml_reader::{Source, Table, TomlError};

@@ -65,7 +65,7 @@ pub enum ComparisonError {
          this sample"
     )]
     NotFinite {
-        /// Its time [s].
+        /// Time of the value [s].
         time_s: f64,
     },
 }

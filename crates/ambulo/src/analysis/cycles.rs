@@ -45,7 +45,7 @@ pub fn over_cycle(grid: TimeGrid, series: &[f64], cycle: &Cycle) -> Vec<f64> {
     over_cycle_of(grid, |frame| series[frame], cycle)
 }
 
-/// The same for a series of which only the frames of the cycle are computed.
+/// As [`over_cycle`], for a series of which only the frames of the cycle are computed.
 #[must_use]
 pub fn over_cycle_of(grid: TimeGrid, value: impl Fn(usize) -> f64, cycle: &Cycle) -> Vec<f64> {
     // One frame more on each side than the interpolation needs.

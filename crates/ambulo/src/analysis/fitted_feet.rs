@@ -1,8 +1,8 @@
 //! Markers of feet that were not seen, in their places on the fitted body.
 //!
 //! Feet on plates and their stances are found by a marker at the back and one at the front of each foot. Where the
-//! recording lacks one, the body that follows the other markers shows its place: the standing trial knows where the
-//! marker is on the foot, and the sole knows where heel and toes are.
+//! recording lacks one, the body that follows the other markers shows its place: the standing trial has the place of
+//! the marker on the foot, and the sole the places of heel and toes.
 //! Pinned by: tests/feet_on_plates.rs
 
 use super::subject::Subject;
@@ -54,7 +54,7 @@ fn lacking(points: &MarkerRecording, landmarks: &Landmarks) -> Vec<(Side, usize)
     };
     let of_side = |side: Side| {
         let foot = landmarks.foot(side);
-        // Without an ankle, the markers hardly show where the leg leads.
+        // Without an ankle marker, the direction of the leg is not determined.
         let is_foot = foot.ankle.is_some_and(is_shown);
         let ends = [foot.heel.or(foot.ankle), foot.toe.or(foot.side)];
         let unseen = move |end: &usize| is_foot && !ends[*end].is_some_and(is_shown);

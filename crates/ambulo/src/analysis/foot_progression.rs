@@ -13,7 +13,7 @@
 //! points down, as at foot off, that angle would be one between short projections; φ is then still the turn of the foot
 //! itself, as angles of the pelvis are (`clinical_angles`).
 //!
-//! Source: the sign is that of Schwartz, Rozumalski, Trost 2008 (docs/SESSION.md).
+//! Source: the sign follows Schwartz, Rozumalski, Trost 2008 (docs/SESSION.md).
 //! Not handled: cycles in which the pelvis stays within 0.2 m; they have no walking direction.
 //! Pinned by: tests/analysis_foot_progression.rs
 

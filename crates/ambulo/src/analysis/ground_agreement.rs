@@ -172,7 +172,7 @@ pub struct MomentAgreement {
 }
 
 impl PlateCoverage {
-    /// Coverage without markers to tell which foot was on which plate: stances are the times in which a foot's sensor
+    /// Coverage without markers that show which foot was on which plate: stances are the times in which a foot's sensor
     /// was loaded, and stances that are detected in the motion but not by a sensor are excluded from the window.
     #[must_use]
     pub fn by_load(measured: &Analysis, plates: &[ForceRecording], footfalls: &Footfalls) -> PlateCoverage {
@@ -214,7 +214,7 @@ fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
 /// A whole stance of a foot on a separate plate, predicted and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedStance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// From foot strike to foot off [s].
     pub span_s: [f64; 2],
@@ -263,8 +263,8 @@ impl ComparedStance {
     }
 
     /// Errors over the stance as detected, in the order of [`StanceErrors`](crate::ground::predict::StanceErrors):
-    /// forces in body weights, centres of pressure in statures, sideways is outwards. The samples of a component have a
-    /// weight of 1 together, those of a centre of pressure more where the foot is loaded.
+    /// forces in body weights, centres of pressure in statures, sideways is outwards. The weights of the samples of a
+    /// component sum to 1; samples of a centre of pressure weigh more where the foot is loaded.
     #[must_use]
     pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
         let mut all: [Vec<ErrorSample>; 5] = Default::default();

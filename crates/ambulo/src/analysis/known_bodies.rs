@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::model::marker_set::MarkerSet;
 use std::sync::{Mutex, PoisonError};
 
-/// Bodies that are kept; trials that weigh the person anew need a body each.
+/// Most bodies that are kept; each trial with another weighed mass needs its own body.
 const MOST: usize = 4;
 
 /// The bodies of one standing trial. A body is calibrated once for each marker set and each statement about the person,
@@ -22,7 +22,7 @@ struct KnownBody {
     findings: Findings,
 }
 
-/// Sources of a body besides the standing trial.
+/// Sources of a body in addition to the standing trial.
 #[derive(Debug)]
 enum MadeFrom {
     BuiltIn { person: PersonMeasurements, set: Option<MarkerSet> },

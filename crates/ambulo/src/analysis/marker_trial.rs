@@ -8,12 +8,15 @@
 use super::fitted_feet::with_fitted_feet;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
+use super::knee_axes;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
 use super::marker_use::report_use;
 use super::progress::{Progress, Stage};
+use super::segment_angles::knee_angles;
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
+use crate::functional::CrossTalk;
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
 use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
@@ -23,7 +26,7 @@ use crate::kinematics::marker_fit::{
 };
 use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
 use crate::model::marker_set::MarkerSet;
-use crate::model::{Drive, Model, Side};
+use crate::model::{BySide, Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
 use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
 use crate::motion::{Laboratory, Landmarks};
@@ -49,6 +52,11 @@ pub struct BodyInMotion {
     pub keypoints: Option<KeypointReport>,
     /// What contradicts the labels of the markers or the standing trial, one sentence each.
     pub contradictions: Vec<String>,
+    /// Varus and internal rotation of the knees from the markers of thigh and shank alone, in the frames of the
+    /// recording [rad]; `None` where they do not suffice, or where the knee of the body turns in these planes itself.
+    pub knees: BySide<Option<[Vec<f64>; 2]>>,
+    /// How far varus follows flexion at the knees of the built-in body.
+    pub cross_talk: BySide<Option<CrossTalk>>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -109,23 +117,32 @@ pub(crate) fn fit_body_to_markers(
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
+    let mut cross_talk = BySide::default();
     if subject.calibration.is_some() {
+        if keypoints.is_none() {
+            cross_talk = knee_axes::cross_talk(&subject, &followed, findings);
+        }
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
     let on_floor = OnFloor { axes, plates, points: &followed, set, plate_feet: trial.plate_feet };
-    Ok(BodyInMotion {
-        recorded_markers,
-        keypoints,
-        contradictions,
-        ..on_floor.body_in_motion(subject, fit, findings, progress)?
-    })
+    let knees = match keypoints {
+        // Key points are joint centres, which do not show how a segment turns.
+        Some(_) => BySide::default(),
+        None => knee_angles(&subject.model, &followed, &fit.motion),
+    };
+    let moving = on_floor.body_in_motion(subject, fit, findings, progress)?;
+    Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, cross_talk, ..moving })
 }
 
 impl MarkerTrial<'_> {
     /// The markers of the standing trial in world axes, with the labels of the person.
-    fn standing_markers(&self, contradictions: &mut Vec<String>, findings: &mut Findings) -> Option<MarkerRecording> {
+    pub(super) fn standing_markers(
+        &self,
+        contradictions: &mut Vec<String>,
+        findings: &mut Findings,
+    ) -> Option<MarkerRecording> {
         let set = self.body.marker_set();
         let standing = identity::with_right_labels(self.standing?, "standing trial", set, contradictions, findings);
         let found = self.body.turned(&standing, findings).1.markers;
@@ -140,14 +157,15 @@ impl MarkerTrial<'_> {
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
-        let calibrated =
-            |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
-        // A body that needs the motion besides the standing trial is not that of the other motions.
+        let from = whole.as_ref().or(standing);
+        let calibrated = |findings: &mut Findings| Subject::of_source(&self.body, moving, from, findings);
+        // A body that also needs markers of this motion cannot be shared with other motions.
         let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
         };
-        Ok(self.with_technical_markers(subject?, moving, standing, findings))
+        let subject = subject?.with_chosen_knee_axes(&self.body, moving, from, findings)?;
+        Ok(subject.with_technical_markers(self.body.marker_set(), moving, standing, findings))
     }
 }
 
@@ -213,6 +231,8 @@ impl OnFloor<'_> {
             on_plates,
             keypoints: None,
             contradictions: Vec::new(),
+            knees: BySide::default(),
+            cross_talk: BySide::default(),
         })
     }
 }
@@ -260,7 +280,7 @@ fn during(poses: &SegmentPoses, points: &MarkerRecording) -> SegmentPoses {
     poses.cut(poses.times.partition_point(|time| *time < first), points.frames())
 }
 
-/// Gives coordinates that no marker determines, such as those of toes, the default value of the model.
+/// Gives coordinates that no marker determines, such as toe angles, the default value of the model.
 fn use_defaults_without_markers(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     /// Most names in a message.
     const MOST: usize = 6;

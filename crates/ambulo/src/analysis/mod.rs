@@ -8,8 +8,10 @@ mod events;
 pub mod feasibility;
 mod fitted_feet;
 pub(crate) mod foot_progression;
+mod functional_joints;
 mod ground_agreement;
 pub(crate) mod identity;
+mod knee_axes;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
@@ -22,6 +24,8 @@ pub(crate) mod progress;
 pub(crate) mod recording;
 mod residual;
 mod residual_reduction;
+pub(crate) mod segment_angles;
+mod stance_load;
 mod subject;
 pub(crate) mod times_and_distances;
 mod tracked;
@@ -33,6 +37,7 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use foot_progression::foot_progression;
+pub(crate) use functional_joints::joints_of_movement;
 #[doc(hidden)]
 pub use ground_agreement::ComparedSample;
 pub use ground_agreement::{
@@ -63,6 +68,7 @@ pub(crate) use recording::{analyse_measured, recorded_trajectory, trajectory_of_
 pub use residual::{Residual, residual, residual_sizes};
 pub use residual_reduction::Adjustable;
 pub(crate) use residual_reduction::reduce_residual;
+pub use stance_load::stance_load;
 #[doc(hidden)]
 pub use subject::{BodySource, Subject};
 pub use subject::{MarkerTrialError, ModelProtocol};

@@ -6,7 +6,7 @@ use super::feasibility::over_ground;
 use super::plausibility;
 use super::progress::{Progress, Stage, Stopped};
 use super::residual::{Residual, residual_within};
-use crate::dynamics::{Forces, JointPowers, ReactionReader, Workspace, inverse_with_residual};
+use crate::dynamics::{Forces, JointMoments, JointPowers, ReactionReader, Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings, word};
 use crate::ground::predict::PredictError;
 use crate::ground::{self, BodyForces, GroundForces};
@@ -72,7 +72,7 @@ pub struct Analysis {
 pub struct Mass {
     /// Mass [kg].
     pub kg: f64,
-    /// Where it comes from.
+    /// Source of the mass.
     pub source: MassSource,
 }
 
@@ -96,7 +96,13 @@ impl Analysis {
         JointPowers::new(model, &self.trajectory, &self.forces.generalized)
     }
 
-    /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.
+    /// The moments of hip, knee and ankle in three planes, from the reactions in these joints.
+    #[must_use]
+    pub fn joint_moments(&self, model: &Model) -> JointMoments<'_> {
+        JointMoments::new(model, &self.trajectory, self.ground.loads())
+    }
+
+    /// The reactions in all joints; [`Analysis::forces`] has only the reactions of joints to ground.
     #[must_use]
     pub fn reactions(&self, model: &Model) -> ReactionReader<'_> {
         ReactionReader::new(model, &self.trajectory, self.ground.loads())

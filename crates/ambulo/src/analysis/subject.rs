@@ -1,4 +1,4 @@
-//! The body that is fitted to markers: where it comes from, and how it is made.
+//! The body that is fitted to markers, and its sources: a model, a marker set, a protocol or a standing trial.
 
 use super::feasibility::Person;
 use super::identity::completed;
@@ -54,8 +54,8 @@ pub struct ModelProtocol {
 }
 
 impl<'a> BodySource<'a> {
-    /// A recording in world axes: those of the ground of the model if a protocol says how its markers are used,
-    /// otherwise those that are detected.
+    /// A recording in world axes: the ground axes of the model if a protocol says how its markers are used, otherwise
+    /// the detected axes.
     pub(super) fn turned(
         &self,
         recording: &LaboratoryRecording,
@@ -102,7 +102,7 @@ pub struct Subject {
     pub calibration: Option<CalibrationReport>,
     /// How a given model was scaled: factors of each body along its axes.
     pub scaled: Vec<(String, Vec3)>,
-    /// Root mean square distance of the markers of the standing trial from those of the scaled model [m].
+    /// Root mean square distance between the markers of the standing trial and of the scaled model [m].
     pub scaling_rms_m: Option<f64>,
     /// The recognised marker sets.
     pub sets: Vec<String>,
@@ -124,7 +124,7 @@ pub enum MarkerTrialError {
     /// The poses of the segments give no body.
     #[error(transparent)]
     Poses(#[from] JointCentreError),
-    /// The markers of several people.
+    /// The markers of several persons.
     #[error(
         "{recording} has the markers of {} people: {}; expected one person. hint: choose one of them by name",
         people.len(),
@@ -223,7 +223,7 @@ impl Subject {
         }
     }
 
-    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces that of the protocol.
+    /// A model that a protocol scales, or leaves as it is; a stated mass [kg] replaces the mass of the protocol.
     fn by_protocol(
         model: &Model,
         mass: Option<f64>,

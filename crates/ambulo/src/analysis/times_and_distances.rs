@@ -1,14 +1,14 @@
 //! Times and distances of walking for every stride: speed, cadence, step and stride length, step width, stance, swing
 //! and support.
 //!
-//! | quantity              | definition                                                                                        |
-//! |-----------------------|---------------------------------------------------------------------------------------------------|
-//! | cycle time            | foot strike to next foot strike of the same foot, with one foot off in between                     |
-//! | stance, swing         | foot strike to foot off, foot off to foot strike, as shares of the cycle                           |
-//! | single support        | foot off to foot strike of the other foot within the stance                                        |
+//! | quantity              | definition |
+//! |-----------------------|---|
+//! | cycle time            | foot strike to next foot strike of the same foot, with one foot off in between |
+//! | stance, swing         | foot strike to foot off, foot off to foot strike, as shares of the cycle |
+//! | single support        | foot off to foot strike of the other foot within the stance |
 //! | double support        | initial: foot strike to foot off of the other foot; terminal: foot strike of the other foot to foot off |
-//! | step time             | foot strike of the other foot to the foot strike that ends the stride                              |
-//! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike             |
+//! | step time             | foot strike of the other foot to the foot strike that ends the stride |
+//! | stride length         | displacement of the heel (rear point of the sole) over the floor from strike to strike |
 //! | step length and width | from the other heel at its strike to this heel at its strike, along and across the walking direction |
 //!
 //! On a treadmill, positions are relative to the belt; its velocity is taken from the loaded feet. The walking
@@ -57,10 +57,10 @@ pub struct TimesAndDistances {
     pub strides: Vec<Stride>,
 }
 
-/// One stride of a foot: strike, foot off, next strike. Shares are those of the cycle, from 0 to 1.
+/// One stride of a foot: strike, foot off, next strike. Shares refer to the cycle, from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stride {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// First strike [s].
     pub start_s: f64,
@@ -74,7 +74,7 @@ pub struct Stride {
     pub initial_double_support: Option<f64>,
     /// Share from foot strike of the other foot to foot off, if known.
     pub terminal_double_support: Option<f64>,
-    /// From foot strike of the other foot to the end of the stride [s].
+    /// Time from foot strike of the other foot to the end of the stride [s].
     pub step_time_s: Option<f64>,
     /// Displacement of the heel over the floor [m], if the soles are known.
     pub stride_length_m: Option<f64>,
@@ -294,9 +294,9 @@ fn only(times: &[f64], [from, to]: [f64; 2]) -> Option<f64> {
 /// A foot strike with the position of the heel relative to the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
-    /// When [s].
+    /// Time of the strike [s].
     pub time_s: f64,
     /// Position of the heel relative to the floor [m].
     pub heel: Vec3,
@@ -352,7 +352,7 @@ impl PelvisPath {
         Some(PelvisPath { grid, places })
     }
 
-    /// From one instant to another [m].
+    /// Displacement from one instant to another [m].
     pub(super) fn between(&self, [from, to]: [f64; 2]) -> Option<Vec3> {
         Some(at(self.grid, &self.places, to)? - at(self.grid, &self.places, from)?)
     }
@@ -376,9 +376,9 @@ impl PelvisPath {
 
 /// Where the heels are at the strikes, in order of time.
 pub struct Places {
-    /// What the feet stand on.
+    /// The floor under the feet.
     pub floor: Floor,
-    /// In order of time.
+    /// Strikes in order of time.
     pub strikes: Vec<Strike>,
 }
 
@@ -427,10 +427,10 @@ impl Places {
         Some(Placed { stride_m: line.norm(), step_m: step.map(|step| step[0]), width_m: step.map(|step| step[1]) })
     }
 
-    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`. A
-    /// stride has the walking direction of its middle: this foot's stride that of half a step before, the other foot's
-    /// next stride that of half a step after. If there is no next one, the other foot's last stride is used, one and a
-    /// half steps before.
+    /// The walking direction in the step from the strike of the `other` foot to the one that ends the stride `line`.
+    /// The direction of a stride holds at its middle: this foot's stride gives it half a step before, the other foot's
+    /// next stride half a step after. If there is no next stride, the other foot's last stride is used, one and a half
+    /// steps before.
     fn heading(&self, line: Vec3, other: &Strike, stride_s: f64) -> Vec3 {
         let of_other = |from_s: f64, to_s: f64| {
             let same_foot = |s: &&Strike| s.side == other.side && s.time_s > from_s && s.time_s < to_s;

@@ -12,9 +12,9 @@ use crate::motion::TimeGrid;
 use crate::optimal::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
 
 /// Changes a motion until feet on soft ground supply its external forces ([`TrackProblem`]), near the recorded motion
-/// and near predicted ground forces. `analysis` is that of the recorded motion with these forces.
+/// and near predicted ground forces. `analysis` analyses the recorded motion with these forces.
 ///
-/// Returns the analysis of the changed motion, and what the solver found. Events and cycles stay those of the recorded
+/// Returns the analysis of the changed motion, and what the solver found. Events and cycles stay as in the recorded
 /// motion.
 ///
 /// # Errors

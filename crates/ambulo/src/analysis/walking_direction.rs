@@ -20,7 +20,7 @@ pub struct WalkingDirection {
     pub up: Vec3,
     /// Velocity of the belt [m/s].
     pub floor_velocity: Vec3,
-    /// Of the samples [s].
+    /// Times of the samples [s].
     pub times: Vec<f64>,
     /// Positions of the pelvis at these times [m].
     pub pelvis: Vec<Vec3>,

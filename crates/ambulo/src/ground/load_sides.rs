@@ -33,7 +33,7 @@ pub(crate) struct LoadedSpan {
     pub(crate) span: [f64; 2],
     /// Mean distance of each foot from the centre of pressure [m]; not a number outside the motion.
     pub(crate) distance_m: BySide<f64>,
-    /// Of this, the distance along the ground [m].
+    /// The part of this distance along the ground [m].
     level_m: BySide<f64>,
 }
 

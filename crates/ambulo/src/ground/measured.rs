@@ -1,7 +1,7 @@
 //! Ground forces from force plates or other sensors, resampled to the frames of a trajectory.
 //!
 //! The wrench of each sensor is first expressed about the world's origin, M₀ = p × F + T. There it can be filtered,
-//! interpolated and added to those of other sensors; a centre of pressure cannot (it jumps, and is undefined without
+//! interpolated and added to wrenches of other sensors; a centre of pressure cannot (it jumps, and is undefined without
 //! load). The centre of pressure and the free moment are computed at the end, with u the upward unit vector and h the
 //! height of the surface of the plate:
 //!
@@ -24,7 +24,7 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::{BodyId, Model, Side};
 use crate::motion::filter::{LowPass, low_pass_each};
 use crate::motion::gaps::rows_around;
-use crate::motion::{ForceRecording, MotionError, TimeGrid, Window, interpolate};
+use crate::motion::{Between, ForceRecording, MotionError, TimeGrid, Window, interpolate};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3, Wrench};
 use std::borrow::Cow;
@@ -233,7 +233,7 @@ pub(crate) struct TotalLoad {
 }
 
 impl TotalLoad {
-    /// Of the recordings around a trajectory; `None` if one of them cannot be used.
+    /// The total of the recordings around a trajectory; `None` if one of them cannot be used.
     pub(crate) fn new(
         model: &Model,
         trajectory: &Trajectory,
@@ -262,7 +262,9 @@ impl TotalLoad {
     pub(crate) fn at(&self, time_s: f64) -> Wrench {
         let mut total = Wrench::ZERO;
         for (times, columns) in &self.sensors {
-            let vector = |k: usize| Vec3::from_fn(|axis, _| interpolate(times, &columns[k + axis], time_s));
+            let place = Between::of(times, time_s);
+            let value = |k: usize| place.value(&columns[k]);
+            let vector = |k: usize| Vec3::new(value(k), value(k + 1), value(k + 2));
             total = Wrench { force: total.force + vector(0), moment: total.moment + vector(3) };
         }
         total
@@ -281,9 +283,10 @@ fn resampled(
         low_pass_all(recording, &mut columns, filter)?;
     }
     let covered = covered(recording, grid);
+    let place = |i: usize| covered(i).then(|| Between::of(&recording.times, grid.time(i)));
+    let places: Vec<Option<Between>> = (0..grid.frames).map(place).collect();
     for column in &mut columns {
-        let at = |i: usize| if covered(i) { interpolate(&recording.times, column, grid.time(i)) } else { 0.0 };
-        *column = (0..grid.frames).map(at).collect();
+        *column = places.iter().map(|place| place.map_or(0.0, |place| place.value(column))).collect();
     }
     let vector =
         |k: usize| (0..grid.frames).map(|i| Vec3::new(columns[k][i], columns[k + 1][i], columns[k + 2][i])).collect();

@@ -21,7 +21,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// From strike to off [s]; a missing end is replaced by the given bound.
+    /// Time from strike to off [s]; a missing end is replaced by the given bound.
     #[must_use]
     pub fn span(&self, from_s: f64, to_s: f64) -> [f64; 2] {
         [self.strike_s.unwrap_or(from_s), self.off_s.unwrap_or(to_s)]

@@ -3,18 +3,19 @@
 //! Joint angles that a program fitted without knowledge of the floor let loaded feet slide. The coordinates that move
 //! the soles are changed by δ:
 //!
-//!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p² + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
+//!   δ = argmin Σ_frames ( Σ_points w |h(p(q + δ) - v t - p̄)|² / σ_p²
+//!                           + Σ_coordinates (δ_i / σ_i)² + (δ_i'' / (ω² σ_i))² )
 //!
-//! | code       | symbol | unit     | meaning                                                                                    |
-//! | `points`   | p      | m        | rear, ball and tip of a sole; h takes the horizontal part                                  |
-//! | `weight`   | w      | 1        | 1 while the point rests on the floor: inside the stance and as low as it gets there        |
-//! | `velocity` | v      | m/s      | velocity of the floor, as the belt of a treadmill                                          |
-//! | `place`    | p̄     | m        | mean of p - v t over the stance, weighted by w                                             |
+//! | code       | symbol | unit     | meaning |
+//! | `points`   | p      | m        | rear, ball and tip of a sole; h takes the horizontal part |
+//! | `weight`   | w      | 1        | 1 while the point rests on the floor: in stance and near its lowest place |
+//! | `velocity` | v      | m/s      | velocity of the floor, as the belt of a treadmill |
+//! | `place`    | p̄     | m        | mean of p - v t over the stance, weighted by w |
 //! | `STILL_M`  | σ_p    | m        | how still a point that rests is: skin and shoe give way, the rigid foot of a model does not |
-//! | `TURN`, `SHIFT_M` | σ_i | rad, m | usual error of a fitted angle, of a displacement                                         |
-//! | `CHANGING` | ω      | rad/s    | how fast these errors change: a faster change would itself be a force                      |
+//! | `TURN`, `SHIFT_M` | σ_i | rad, m | usual error of a fitted angle, of a displacement |
+//! | `CHANGING` | ω      | rad/s    | how fast these errors change: a faster change would itself be a force |
 //!
-//! Heights are not changed. Animation knows the same task as the clean-up of sliding feet.
+//! Heights are not changed. In animation the same task is called the clean-up of sliding feet.
 //!
 //! Solved by two Gauss-Newton steps with numerical derivatives of the poses, over all frames at once: a band matrix
 //! with 2 n bands for n coordinates. Cost: about 0.3 ms and 16 n² bytes per frame.
@@ -30,12 +31,12 @@ use crate::numerics::BandMatrix;
 use crate::spatial::{Pose, Vec3};
 use std::f64::consts::TAU;
 
-/// How still a loaded point of a sole is [m].
+/// Standard deviation of the place of a loaded point of a sole [m].
 const STILL_M: f64 = 0.005;
 /// Usual error of a fitted angle [rad] and of a displacement [m].
 const TURN: f64 = 0.035;
 const SHIFT_M: f64 = 0.01;
-/// How fast errors of fitted coordinates change [rad/s]: once a second.
+/// Rate at which errors of fitted coordinates change [rad/s]: once a second.
 const CHANGING: f64 = TAU;
 /// A point rests up to the first height above its lowest place in the stance, and not at all above the second [m].
 const RESTING_M: [f64; 2] = [0.010, 0.025];
@@ -150,7 +151,7 @@ impl RestingPoint {
         (whole > 0.0).then_some(RestingPoint { point, first, weights, place, velocity, up, grid })
     }
 
-    /// Its weight in a frame.
+    /// Weight of the point in a frame.
     fn weight(&self, frame: usize) -> f64 {
         frame.checked_sub(self.first).and_then(|k| self.weights.get(k)).copied().unwrap_or(0.0)
     }

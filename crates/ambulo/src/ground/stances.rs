@@ -7,7 +7,7 @@
 //!
 //!   Σ F ≥ c Σ m (a + g)        c = 0.85, over the frames in which the other foot is in the air
 //!
-//! A stance that was not measured and in which the measured loads carry the body nevertheless is none: the foot
+//! An unmeasured stance in which the measured loads carry the whole body is no stance: the foot
 //! touches the floor without a load. The others have **missing** loads; `completed` takes them from a prediction.
 //!
 //! | code        | symbol | unit | meaning                                                     |
@@ -34,13 +34,13 @@ const CARRIED_SHARE: f64 = 0.85;
 const TOUCH_SHARE: f64 = 0.1;
 /// A predicted load begins and ends within this time outside of its stance [s].
 const RAMP_S: f64 = 0.03;
-/// Shorter times have no residual of their own [s].
+/// Shorter times have no separate residual [s].
 const SHORTEST_WINDOW_S: f64 = 0.05;
 
 /// A stance of one foot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Foot strike, or the first instant of a motion that begins during the stance [s].
     pub start_s: f64,
@@ -59,7 +59,8 @@ pub enum StanceSource {
     Table,
     /// The motion.
     Predicted,
-    /// Nothing: it was not measured, and predictions were never validated in this activity, or are impossible.
+    /// No forces: the stance was not measured, and predictions were never validated in this activity, or are
+    /// impossible.
     Unknown,
 }
 
@@ -96,7 +97,7 @@ impl fmt::Display for StanceSource {
 }
 
 impl Stance {
-    /// A stance of a motion, without what is outside of it; `None` if nothing is left.
+    /// A stance cut to the time of the motion; `None` if it is outside.
     pub(crate) fn within(
         side: Side,
         [start_s, end_s]: [f64; 2],
@@ -106,6 +107,16 @@ impl Stance {
         let (start_s, end_s) = (start_s.max(grid.start_s), end_s.min(grid.end_s()));
         (end_s > start_s).then_some(Stance { side, start_s, end_s, source })
     }
+}
+
+/// Of the time in which a leg was loaded, the share in which its load was measured; `None` if it was never loaded.
+pub(crate) fn measured_share(stances: &[Stance], side: Side) -> Option<f64> {
+    let loaded_s = |of: fn(&StanceSource) -> bool| -> f64 {
+        let own = stances.iter().filter(|stance| stance.side == side && of(&stance.source));
+        own.map(|stance| stance.end_s - stance.start_s).fold(0.0, |sum, duration_s| sum + duration_s)
+    };
+    let all_s = loaded_s(|_| true);
+    (all_s > 0.0).then(|| loaded_s(StanceSource::is_measured) / all_s)
 }
 
 /// A time in which a measured load acts on a foot.
@@ -119,7 +130,7 @@ pub(crate) struct LoadedTime {
 }
 
 impl LoadedTime {
-    /// The loads of force plates on a foot of their own.
+    /// The loads of force plates with one foot each.
     pub(crate) fn on_plates(on_plates: &FeetOnPlates) -> Vec<LoadedTime> {
         let of_contact = |contact: &PlateContact| {
             let is_own =
@@ -163,7 +174,7 @@ pub(crate) struct VerticalForces {
     pub(crate) weight_n: f64,
 }
 
-/// A motion whose loads were measured, as far as they were.
+/// A motion with loads that were measured at some times.
 pub(crate) struct MeasuredMotion<'a> {
     pub(crate) grid: TimeGrid,
     pub(crate) footfalls: &'a Footfalls,
@@ -261,10 +272,11 @@ fn is_covered<'a>(side: Side, span: [f64; 2], loaded: impl Iterator<Item = &'a L
 
 /// Measured ground forces with predicted ones where loads are missing.
 ///
-/// In double support with a measured foot the rest of what the motion requires would be the other foot's, but the
-/// error of the total is then that of one foot: over 21 stances of eight people in four laboratories whose plate was
-/// left out, the moments differ from the measured ones by 0.11 (ankle), 0.12 (knee) and 0.17 (hip) N.m/kg (rms) with
-/// the prediction, and by 0.11, 0.14 and 0.23 with the rest of the forces, 0.23, 0.19 and 0.19 with that of the wrench.
+/// In double support with a measured foot, the rest of what the motion requires would be the other foot's; but then one
+/// foot gets the error of the total. Over 21 stances of eight subjects in four laboratories whose plate was left out,
+/// the moments differ from the measured ones by 0.11 (ankle), 0.12 (knee) and 0.17 (hip) N.m/kg (rms) with the
+/// prediction. They differ by 0.11, 0.14 and 0.23 with the rest of the forces, and by 0.23, 0.19 and 0.19 with the rest
+/// of the wrench.
 pub(crate) fn completed(
     model: &Model,
     grid: TimeGrid,

@@ -69,6 +69,12 @@ pub enum Field {
     ForceDelay,
     /// The method of the marker fit.
     Fit,
+    /// The regression of the hip centres.
+    Hip,
+    /// The axes of the knees.
+    KneeAxis,
+    /// [`Job::functional`](super::Job::functional)
+    Functional,
     /// The residual reduction.
     ResidualReduction,
 }
@@ -103,6 +109,9 @@ impl Field {
             Field::Gap => "longest gap",
             Field::ForceDelay => "force delay",
             Field::Fit => "marker fit",
+            Field::Hip => "regression of the hip centres",
+            Field::KneeAxis => "choice of the knee axes",
+            Field::Functional => "movement that shows the joints",
             Field::ResidualReduction => "residual reduction",
         }
     }

@@ -82,6 +82,7 @@ pub fn table(path: &Path, bytes: &[u8]) -> Result<(Table, Vec<Remark>), JobError
 /// Reports the remarks of a reader as findings.
 pub(super) fn note_remarks(path: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
-        findings.report(Code::FileOdd, format!("{path}: {remark}"));
+        let code = if remark.is_about_clock { Code::MotionClock } else { Code::FileOdd };
+        findings.report(code, format!("{path}: {remark}"));
     }
 }

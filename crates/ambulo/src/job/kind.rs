@@ -41,7 +41,7 @@ impl RecordingKind {
     }
 }
 
-/// What is said of a file whose name shows no kind of recording: its content may.
+/// The message about a file whose name shows no kind of recording: its content may.
 fn unknown(ending: &str, bytes: &[u8]) -> String {
     let found = match ending {
         "" => "its name has no extension".to_owned(),

@@ -43,8 +43,9 @@ pub fn laboratory_file(bytes: Vec<u8>, path: &Path, findings: &mut Findings) -> 
         "c3d" => LaboratoryFile::from_c3d(bytes, &shown, findings),
         "trc" => LaboratoryFile::from_trc(bytes, &shown, findings),
         "mvnx" => LaboratoryFile::from_mvnx(bytes, &shown, findings),
-        _ => {
-            let what = "expected markers (.c3d, .trc or .csv) or segments (.c3d, .mvnx)";
+        other => {
+            let what =
+                format!("found a file `.{other}`; expected markers (.c3d, .trc or .csv) or segments (.c3d, .mvnx)");
             return Err(JobError::new(&[], what).within(shown));
         }
     };

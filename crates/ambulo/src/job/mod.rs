@@ -5,11 +5,11 @@
 //!    |
 //!   read    the caller reads the files; kinds of recording are recognised, contradictions are rejected
 //!    v
-//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files that were read
+//! ReadJob   Source and Settings of `study::run`, the job with every field filled, the names of all files read
 //! ```
 //!
-//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] decides which body and mass the trials of
-//! a visit have.
+//! [`trials`] finds the trials of a folder and makes a job of each; [`visit`] chooses the body and the mass for the
+//! trials of a visit have.
 //!
 //! The joint moments of a recording in a laboratory:
 //!
@@ -68,6 +68,7 @@ pub use values::{
 
 use crate::analysis::Subject;
 use crate::findings::Findings;
+use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
@@ -92,6 +93,8 @@ pub struct Job {
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
+    /// The same person in a movement of hips and knees, which shows the joint centres and axes of the built-in body.
+    pub functional: Option<PathBuf>,
     /// The person in recordings of several people: the prefix of the names of the markers. By default such recordings
     /// are refused.
     pub subject: Option<String>,
@@ -169,7 +172,7 @@ pub struct ForceFiles {
     pub left: Option<FootColumns>,
 }
 
-/// What is read or computed once for several jobs of a person. Clones share it.
+/// Data that are read or computed once for several jobs of a person. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Shared {
     standing_trials: StandingTrials,
@@ -205,6 +208,7 @@ impl Default for Job {
             recording: None,
             trial: None,
             standing: None,
+            functional: None,
             subject: None,
             model: None,
             marker_set: None,
@@ -260,7 +264,7 @@ impl Job {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let ForceFiles { table, loads, .. } = &self.forces;
         let others = [&self.recording, &self.standing, &self.marker_set, &self.smpl, table, loads];
-        let more = [&self.person, &self.device, &self.thresholds];
+        let more = [&self.person, &self.device, &self.thresholds, &self.functional];
         let files = others.into_iter().chain(more).flatten().chain(&self.setups).map(PathBuf::as_path);
         files.chain(self.model_file()).chain(self.markers.as_deref().map(Path::new))
     }
@@ -268,6 +272,15 @@ impl Job {
     /// The recording, for messages.
     fn shown(&self) -> String {
         self.recording().display().to_string()
+    }
+
+    /// Choices of joint centres and axes of the built-in body, and whether each was made.
+    fn of_joints(&self) -> [(Field, bool); 3] {
+        [
+            (Field::Hip, self.settings.hip != HipRegression::default()),
+            (Field::KneeAxis, self.settings.knee_axis != KneeAxis::default()),
+            (Field::Functional, self.functional.is_some()),
+        ]
     }
 
     /// Whether segment masses of the built-in body were chosen.

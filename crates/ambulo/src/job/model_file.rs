@@ -10,7 +10,7 @@ use crate::model::{Model, from_osim};
 use ambulo_formats::osim::{OsimMarkerSet, OsimModel};
 use std::path::Path;
 
-/// The model of a file, with the markers of a set in a file of its own.
+/// The model of a file, with the markers of a set in a separate file.
 pub(super) fn read_model(path: &Path, set: Option<&Path>, reading: &mut Reading<'_>) -> Result<Model, JobError> {
     let Reading { models, files, findings, setups, read, .. } = reading;
     read.push(path.to_owned());

@@ -35,7 +35,7 @@ pub(super) struct ModelFiles {
 struct Known<K, V> {
     key: K,
     value: Arc<V>,
-    /// Of reading the files.
+    /// Findings of reading the files.
     findings: Findings,
 }
 

@@ -18,9 +18,9 @@ use std::path::PathBuf;
 pub struct ReadJob {
     /// The job, with what the set-ups state in place of fields that were open.
     pub job: Job,
-    /// What was recorded.
+    /// The recording.
     pub source: Source,
-    /// How it is processed.
+    /// How the recording is processed.
     pub settings: Settings,
     /// Every file that was read, in this order.
     pub files: Vec<PathBuf>,
@@ -28,13 +28,13 @@ pub struct ReadJob {
     pub ground: Option<PathBuf>,
 }
 
-/// What a job is read with.
+/// Access to the files of a job, and where its findings go.
 pub struct Reader<'a> {
     /// The files.
     pub files: &'a mut dyn Files,
-    /// What other jobs of the person have read.
+    /// Data that other jobs of the person have read.
     pub shared: &'a Shared,
-    /// What is unusual in the files.
+    /// Findings about the files.
     pub findings: &'a mut Findings,
     /// Called with a word when a part of the files has been read.
     pub progress: &'a mut dyn FnMut(&'static str),

@@ -116,7 +116,7 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
         (Field::Plates, !job.plates.is_empty()),
         (Field::Segments, job.model_file().is_some() && job.has_other_segments()),
     ];
-    let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    let Some((field, _)) = given.into_iter().chain(job.of_joints()).find(|(_, given)| *given) else { return Ok(()) };
     let what = format!("the {} has no effect for orientations of sensors", field.name());
     Err(JobError::new(&[field], what).within(job.shown()))
 }

@@ -7,6 +7,7 @@ use super::{Job, json};
 use crate::analysis::Adjustable;
 use crate::analysis::feasibility::Thresholds;
 use crate::ground::predict::PersonalErrors;
+use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
@@ -49,6 +50,10 @@ pub struct Processing {
     pub fit: Option<MarkerFitting>,
     /// Longest marker gap that is interpolated [s].
     pub longest_gap_s: f64,
+    /// How the built-in body finds the centres of the hips.
+    pub hip: HipRegression,
+    /// How the built-in body finds the axes of the knees.
+    pub knee_axis: KneeAxis,
 }
 
 impl Default for Processing {
@@ -66,6 +71,8 @@ impl Default for Processing {
             residual_reduction: None,
             fit: None,
             longest_gap_s: FitSettings::default().longest_gap_s,
+            hip: HipRegression::default(),
+            knee_axis: KneeAxis::default(),
         }
     }
 }
@@ -91,7 +98,7 @@ impl Processing {
 
     fn marker_fit(&self, tracked: Option<TrackedTasks>) -> FitSettings {
         let defaults = FitSettings::default();
-        // A set-up asks for the fit of OpenSim.
+        // With a set-up, markers are fitted as OpenSim does.
         let has_setup = tracked.is_some();
         FitSettings {
             // Stated weights are kept.
@@ -129,12 +136,14 @@ pub(super) fn read(job: &Job, tracked: Option<TrackedTasks>, files: &mut dyn Fil
         comparison_filter: of_forces.unwrap_or(settings.comparison_filter),
         window: own.window,
         rate_hz: own.rate_hz,
-        // A calibration corrects predicted forces alone, so it asks for them.
+        // A calibration corrects predicted forces alone, so forces are predicted.
         ground: match own.ground {
             GroundSettings::MeasuredOrPredicted if job.person.is_some() => GroundSettings::Predicted,
             ground => ground,
         },
         marker_fit: own.marker_fit(tracked),
+        hip: own.hip,
+        knee_axis: own.knee_axis,
         refit: own.refit,
         residual_reduction: own.residual_reduction,
         thresholds: thresholds.unwrap_or_default(),

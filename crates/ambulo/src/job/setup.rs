@@ -347,7 +347,7 @@ impl Setups {
         }
     }
 
-    /// The protocol of a model whose markers are fitted as the set-ups say; `None` without such set-ups.
+    /// The protocol of a model whose markers are fitted as the set-ups state; `None` without such set-ups.
     pub(super) fn protocol(
         &self,
         model: &Model,

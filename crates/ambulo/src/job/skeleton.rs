@@ -37,7 +37,7 @@ pub(super) fn read_smpl(job: &Job, reading: &mut Reading<'_>) -> Result<Source, 
     Ok(source(job, skeleton, mass_kg))
 }
 
-/// The lengths: those of the user's model, or of the built-in body of the stated stature.
+/// The segment lengths: from the user's model, or from the built-in body of the stated stature.
 fn smpl_body(job: &Job, motion: &SmplMotion, mass_kg: f64, reading: &mut Reading<'_>) -> Result<SmplBody, JobError> {
     let build = |height: f64| Build { table: job.segments, mass: mass_kg, height, toe_joint: true };
     let Some(path) = &job.smpl else {
@@ -54,7 +54,7 @@ fn smpl_body(job: &Job, motion: &SmplMotion, mass_kg: f64, reading: &mut Reading
 /// A stature for proportions [m].
 const ANY_STATURE_M: f64 = 1.7;
 
-/// The mass, which the file does not hold.
+/// The body mass, which the file does not contain.
 fn mass(job: &Job, what: &str) -> Result<f64, JobError> {
     reject_unused_fields(job)?;
     job.size.mass_kg.ok_or_else(|| {
@@ -77,7 +77,7 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
         (Field::MarkerSet, job.marker_set.is_some()),
         (Field::Plates, !job.plates.is_empty()),
     ];
-    let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    let Some((field, _)) = given.into_iter().chain(job.of_joints()).find(|(_, given)| *given) else { return Ok(()) };
     let what = format!(
         "the {} has no effect for a .{}, which is fitted with the built-in body and has no measured forces; expected \
          body mass and height",

@@ -9,7 +9,7 @@ use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};
 use std::path::Path;
 
-/// What the file should be.
+/// Description of the expected file.
 const NAME: &str = "a subject of AddBiomechanics (.b3d)";
 /// Bytes that show what another file is.
 const CONTENT_BYTES: usize = 4096;
@@ -101,7 +101,7 @@ fn check(job: &Job) -> Result<(), JobError> {
     if job.model.is_some() {
         return markers::check(job);
     }
-    match of_markers.into_iter().find(|(_, given)| *given) {
+    match of_markers.into_iter().chain(job.of_joints()).find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
                 "the {} is for markers, but the file's own model and coordinates are used; expected a model, or the \

@@ -139,7 +139,7 @@ impl FromStr for ForceCutoff {
 pub struct FootColumns {
     /// Name of the body.
     pub body: String,
-    /// What the names of the columns begin with.
+    /// Beginning of the names of the columns.
     pub prefix: String,
 }
 
@@ -165,12 +165,12 @@ impl FromStr for FootColumns {
     }
 }
 
-/// What is known of a force plate: which foot is on it, and what is wrong with its signs and directions.
+/// A statement about a force plate: which foot is on it, and errors of its signs and directions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlateFoot {
     /// The plate, counted from 1.
     pub plate: usize,
-    /// In the order in which they are applied.
+    /// Statements in the order in which they are applied.
     pub(super) uses: Vec<PlateUse>,
 }
 

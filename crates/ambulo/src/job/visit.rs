@@ -1,6 +1,6 @@
 //! The trials of a visit, computed with one body.
 //!
-//! 1. Every trial is computed with a body of its own.
+//! 1. Every trial is computed with its own body.
 //! 2. Where the bodies are the same, because a model or a standing trial with a known mass gives them, this is all.
 //! 3. Otherwise the mass is the median of the trials whose data are not bad. The body is calibrated once with this
 //!    mass, from the standing trial or, without one, from the trial whose markers lie nearest to their body; the other
@@ -19,9 +19,9 @@ use std::path::Path;
 pub struct VisitRun {
     /// Number of the trial.
     pub trial: usize,
-    /// The mass of the body [kg]; `None` takes that of the job.
+    /// The mass of the body [kg]; `None` takes the mass of the job.
     pub mass_kg: Option<f64>,
-    /// The body; `None` takes that of the job.
+    /// The body; `None` takes the body of the job.
     pub body: Option<Subject>,
 }
 
@@ -79,7 +79,7 @@ fn has_one_body<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> bool {
     outcomes.all(|outcome| every_number(outcome) == first)
 }
 
-/// All numbers and names of a body, without the markers that a trial adds to those of the calibration.
+/// All numbers and names of a body, without the markers that a trial adds to the calibration.
 fn every_number(outcome: &Outcome) -> String {
     let calibrated = subject(outcome).and_then(|subject| subject.calibration.as_ref());
     let is_shared =
@@ -88,7 +88,8 @@ fn every_number(outcome: &Outcome) -> String {
     format!("{:?}", outcome.body.with_markers(markers))
 }
 
-/// The trial that gives the body: of those whose data are not bad the one whose markers lie nearest to their body.
+/// The trial that gives the body: among trials whose data are not bad, the one with the smallest distance between
+/// markers and body.
 fn first_of<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> Option<usize> {
     let rank = |k: &usize| {
         let outcome = runs[*k].as_ref().ok()?.as_ref();

@@ -57,7 +57,7 @@ pub fn scene_verdict(
     Ok((!figures.is_empty()).then_some(SceneVerdict { state: worst.unwrap_or(VerdictState::Feasible), figures }))
 }
 
-/// The verdict on a motion with the forces of the scene on it. Joint forces and residual are those of inverse dynamics.
+/// The verdict on a motion with the forces of the scene on it. Joint forces and residual come from inverse dynamics.
 fn motion_verdict(motion: &FigureMotion, thresholds: &Thresholds, findings: &mut Findings) -> Verdict {
     let FigureMotion { model, trajectory, ground, loads, .. } = motion;
     let forces = inverse_with_residual(&mut Workspace::new(model), trajectory, loads);
@@ -112,7 +112,7 @@ fn ground(recording: &WalkRecording) -> GroundForces {
     GroundForces { bodies: bodies.collect() }
 }
 
-/// The joint drives as generalised forces. Of the root's reaction only the moment that holds the trunk upright is a
+/// The joint drives as generalised forces. Only the moment of the root's reaction that holds the trunk upright is a
 /// residual; the other components keep the figure in its plane, and its translations are free. A verdict needs the
 /// reactions of no other joint.
 fn forces(recording: &WalkRecording) -> Forces {

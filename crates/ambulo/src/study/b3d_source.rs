@@ -8,7 +8,7 @@ use crate::motion::{B3dError, B3dTrial, Window};
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 
-/// Masses that differ by less, as a share, are one person's.
+/// Largest relative difference between masses of one person.
 const SAME_MASS: f64 = 0.05;
 
 /// Why a trial of an AddBiomechanics subject is no source.
@@ -27,7 +27,7 @@ pub enum B3dSourceError {
 }
 
 impl Source {
-    /// The coordinates of the last pass with the file's own model. Ground forces are those of the longest time within
+    /// The coordinates of the last pass with the file's own model. Ground forces come from the longest time within
     /// `window` in which none is missing; without such a time they are predicted.
     ///
     /// # Errors
@@ -68,8 +68,8 @@ impl Source {
     }
 }
 
-/// Reports a stated mass that is not that of the model. The forces are computed with the model; the plates show which
-/// is right.
+/// Reports a stated mass that differs from the model's. The forces are computed with the model; the plates show which
+/// mass is right.
 fn report_stated_mass(trial: &B3dTrial<'_>, model: &Model, findings: &mut Findings) {
     let Some(stated_kg) = trial.person(findings).mass_kg else { return };
     let model_kg = model.mass();

@@ -22,7 +22,7 @@ pub enum StudyError {
     Clock {
         /// Median time between samples [s].
         step_s: f64,
-        /// What the number looks like.
+        /// The quantity that the number probably is.
         looks_like: &'static str,
         /// The time between samples that is probably meant [s].
         seconds: f64,
@@ -46,7 +46,14 @@ pub enum StudyError {
     #[error(transparent)]
     ForceTable(MotionError),
     /// Forces of the two feet that are not recognised by their names.
-    #[error("the columns of the two feet were not recognised among {}", .found.join(", "))]
+    #[error(
+        "the columns of the two feet were not recognised among {}{}", .found.join(", "),
+        if .found.iter().any(|name| name.ends_with("pelvis_tilt") || name.contains("knee_angle")) {
+            "; these are coordinates of a motion, not forces"
+        } else {
+            ""
+        }
+    )]
     ForceColumns {
         /// Names of the columns.
         found: Vec<String>,
@@ -63,12 +70,12 @@ pub enum StudyError {
     /// A mass on a body that the model does not have.
     #[error("the model has no body `{found}`; expected one of {}", .known.join(", "))]
     UnknownBody {
-        /// Its name.
+        /// Name of the body.
         found: String,
         /// Names of the model's bodies.
         known: Vec<String>,
     },
-    /// A mass that no body can carry.
+    /// A carried mass with which the model is not valid.
     #[error(transparent)]
     AddedMass(ModelError),
     /// A force plate that the recording does not have.
@@ -76,7 +83,7 @@ pub enum StudyError {
     NoSuchPlate {
         /// The plate, counted from 0.
         plate: usize,
-        /// How many there are.
+        /// Number of force plates.
         count: usize,
     },
     /// Residual reduction that is not possible.
@@ -105,7 +112,7 @@ pub enum Input {
 
 impl StudyError {
     /// The part of the source that the error is about; `None` if it is about none or about all of them. A standing
-    /// trial is named where the body was looked for in it: without one, the same errors are about the motion.
+    /// trial is named if the body was searched for in it; otherwise the errors are about the motion.
     #[must_use]
     pub fn input(&self) -> Option<Input> {
         match self {
@@ -132,7 +139,7 @@ impl StudyError {
     }
 }
 
-/// Whether the body was being looked for in the standing trial.
+/// Whether the body was searched for in the standing trial.
 fn is_about_calibration(error: &MarkerTrialError) -> bool {
     match error {
         MarkerTrialError::Calibration(CalibrationError::Build(_))

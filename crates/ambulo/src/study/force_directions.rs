@@ -1,24 +1,12 @@
 //! Finds horizontal forces with a wrong sign or direction.
 //!
-//! In every step the force of the ground leads nearly from the centre of pressure p to the mass centre c, because its
-//! moment about the mass centre only changes the angular momentum of the body, which is small (Herr, Popovic 2008, J
-//! Exp Biol 211:467, unverified):
-//!
-//! ```text
-//! e = F_v (c - p)_h / (c - p)_v          r = Σ F·e / √(Σ F² Σ e²)      over the loaded frames of whole steps
-//! ```
-//!
-//! Means are not removed, because the mean is what shows a lateral force: it leads inwards, towards the other foot. In
-//! 111 clean recordings of walking and running r is 0.8 to 1.0 along the walk, and across it 0.06 to 0.99 in single
-//! steps, 0.4 or more over the steps of a recording. A force with the wrong sign has -r.
+//! In every step the force of the ground leads nearly from the centre of pressure to the mass centre ([`LeverRule`]); r
+//! is the agreement over the loaded frames of whole steps. In 111 clean recordings of walking and running r is 0.8 to
+//! 1.0 along the walk, and across it 0.06 to 0.99 in single steps, 0.4 or more over the steps of a recording. A force
+//! with the wrong sign has -r.
 //!
 //! Newton's law is the second witness where all feet are measured: with the right sign Σ F = m a. A direction is called
 //! wrong only if the other sign does not fit the acceleration of the mass centre worse.
-//!
-//! | code | symbol | unit |
-//! |---|---|---|
-//! | `expected` | e | N |
-//! | `agreement` | r | 1 |
 //!
 //! Pinned by: tests/quality.rs
 
@@ -26,13 +14,14 @@ use super::observation::{Observation, Origin};
 use super::origin::ForceOrigin;
 use crate::analysis::feasibility::{Check, Verdict};
 use crate::findings::{Code, Findings};
+use crate::ground::LeverRule;
 use crate::ground::phases::contacts_from_force;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
 use crate::motion::{ForceRecording, TimeGrid};
 use crate::spatial::Vec3;
 
-/// Below this agreement a direction is wrong: no clean recording comes near, a wrong sign in most.
+/// A direction is wrong if its agreement is below this: clean recordings stay above it, most wrong signs fall below.
 pub(super) const WRONG: f64 = -0.5;
 /// A plate is wrong together with all others if its own agreement is below this.
 const WRONG_TOGETHER: f64 = -0.2;
@@ -84,21 +73,17 @@ struct Sensor<'a> {
 /// Sums over the loaded frames of whole steps, by axis.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
-    /// Of expected (row) times measured components.
-    products: [[f64; 2]; 2],
-    /// Of squares of expected and of measured components.
-    expected: [f64; 2],
-    measured: [f64; 2],
+    lever: LeverRule,
     frames: usize,
     steps: usize,
 }
 
-/// What is wrong with the horizontal force of a sensor.
+/// A fault in the horizontal force of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fault {
     /// The component along an axis has the wrong sign.
     Flipped(usize),
-    /// The force is right when it is turned to the left by these quarters.
+    /// The force agrees after it is turned to the left by this number of right angles.
     Turned(usize),
     /// The components along both axes are exchanged.
     Exchanged,
@@ -116,7 +101,19 @@ impl ForceDirections {
         }
         let turned = sensors.iter().enumerate().filter_map(|(k, sensor)| Some((k, sensor.sums.turned_fault(&body)?)));
         let mut found: Vec<(usize, Fault)> = turned.collect();
+        for s in &sensors {
+            eprintln!(
+                "DBG dir {} r {:?} rms {:?} exp {:?} n {} steps {}",
+                s.name,
+                [0, 1].map(|a| s.sums.agreement(a)),
+                s.sums.lever.measured.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
+                s.sums.lever.expected.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
+                s.sums.frames,
+                s.sums.steps
+            );
+        }
         let flipped = body.flipped(&sensors, &found);
+        eprintln!("DBG flipped {flipped:?} newton {}", body.fits_newton(&sensors, &flipped));
         if body.fits_newton(&sensors, &flipped) {
             found.extend(flipped);
         }
@@ -129,10 +126,10 @@ impl ForceDirections {
         }
     }
 
-    /// The verdict, which is on the movement and not on wrong data.
+    /// The verdict, which judges the movement and not faulty data.
     pub(super) fn set_aside(&self, mut verdict: Verdict, force_origin: &ForceOrigin) -> Verdict {
         if let Some((sentence, _)) = self.worst().filter(|_| is_used(force_origin)) {
-            verdict.set_aside(|check| check != Check::Range, sentence.to_owned());
+            verdict.set_aside(|reason| reason.check != Check::Range, sentence.to_owned());
         }
         verdict
     }
@@ -193,21 +190,11 @@ impl Body {
             return;
         }
         let pressure = force.point[sample] + self.up.cross(&force.moment[sample]) / vertical;
-        let arm = self.center[frame] - pressure;
-        let expected = arm * (vertical / arm.dot(&self.up));
-        if !expected.iter().chain(measured.iter()).all(|x| x.is_finite()) {
-            return;
-        }
-        let [e, f] = [expected, measured].map(|v| axes.map(|axis| v.dot(&axis)));
-        for a in 0..2 {
-            (0..2).for_each(|b| sums.products[a][b] += e[a] * f[b]);
-            sums.expected[a] += e[a] * e[a];
-            sums.measured[a] += f[a] * f[a];
-        }
-        sums.frames += 1;
+        let is_added = sums.lever.add(measured, self.center[frame] - pressure, self.up, axes);
+        sums.frames += usize::from(is_added);
     }
 
-    /// Components with the wrong sign, by sensor; those of turned sensors are left out.
+    /// Components with the wrong sign, by sensor; turned sensors are left out.
     fn flipped(&self, sensors: &[Sensor<'_>], turned: &[(usize, Fault)]) -> Vec<(usize, Fault)> {
         let is_turned = |k: usize| turned.iter().any(|(other, _)| *other == k);
         let least_n = SHOWN_BW * self.weight_n;
@@ -258,23 +245,26 @@ impl Fault {
 
 impl Sums {
     fn agreement(&self, axis: usize) -> f64 {
-        self.products[axis][axis] / (self.expected[axis] * self.measured[axis]).sqrt()
+        self.lever.agreement(axis)
     }
 
     /// Agreement of both components, after the measured force is turned to the left by quarters: (Fx, Fy) to (Fy, -Fx).
     fn turned(&self, quarters: usize) -> f64 {
-        let [[xx, xy], [yx, yy]] = self.products;
-        let product = [xx + yy, xy - yx, -xx - yy, yx - xy][quarters % 4];
-        product / (self.expected.iter().sum::<f64>() * self.measured.iter().sum::<f64>()).sqrt()
+        let [[xx, xy], [yx, yy]] = self.lever.products;
+        [xx + yy, xy - yx, -xx - yy, yx - xy][quarters % 4] / self.size()
     }
 
     /// Agreement of both components, after they are exchanged: (Fx, Fy) to (Fy, Fx).
     fn exchanged(&self) -> f64 {
-        let product = self.products[0][1] + self.products[1][0];
-        product / (self.expected.iter().sum::<f64>() * self.measured.iter().sum::<f64>()).sqrt()
+        (self.lever.products[0][1] + self.lever.products[1][0]) / self.size()
     }
 
-    /// How the force is turned, if it is. Half a turn is two wrong signs.
+    /// What a product of both components is divided by.
+    fn size(&self) -> f64 {
+        (self.lever.expected.iter().sum::<f64>() * self.lever.measured.iter().sum::<f64>()).sqrt()
+    }
+
+    /// The rotation of the force, if it is rotated. Half a turn counts as two wrong signs.
     fn turned_fault(&self, body: &Body) -> Option<Fault> {
         let is_shown = (0..2).any(|axis| self.shows(axis, SHOWN_BW * body.weight_n));
         if !is_shown || self.turned(0) > NOT_TURNED {
@@ -292,16 +282,12 @@ impl Sums {
     /// Whether measured and expected components are large enough to show a direction [N].
     fn shows(&self, axis: usize, least_n: f64) -> bool {
         let rms = |squares: f64| (squares / self.frames.max(1) as f64).sqrt();
-        self.steps > 0 && rms(self.expected[axis]) > least_n && rms(self.measured[axis]) > least_n
+        self.steps > 0 && rms(self.lever.expected[axis]) > least_n && rms(self.lever.measured[axis]) > least_n
     }
 
-    fn with(mut self, other: &Sums) -> Sums {
-        for a in 0..2 {
-            (0..2).for_each(|b| self.products[a][b] += other.products[a][b]);
-            self.expected[a] += other.expected[a];
-            self.measured[a] += other.measured[a];
-        }
-        Sums { frames: self.frames + other.frames, steps: self.steps + other.steps, ..self }
+    fn with(self, other: &Sums) -> Sums {
+        let lever = self.lever.with(&other.lever);
+        Sums { lever, frames: self.frames + other.frames, steps: self.steps + other.steps }
     }
 }
 

@@ -25,7 +25,7 @@ pub enum ForceFilter {
     ByMovement,
     /// This filter.
     LowPass(LowPass),
-    /// None.
+    /// No filter.
     Off,
 }
 

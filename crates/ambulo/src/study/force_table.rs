@@ -1,11 +1,11 @@
-//! Ground forces as a table: which columns act on which body, and in which axes they are.
+//! Ground forces as a table: the body and the axes of each group of columns.
 
 use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns, with_axis_last};
 use super::source::ForceTable;
 use super::table_axes;
 use crate::findings::{Code, Findings, and_more_times};
-use crate::ground::{FootPaths, LoadedSpan};
+use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, FootPaths, LoadedSpan};
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
 use crate::model::{BodyId, BySide, Model, Side};
@@ -18,9 +18,11 @@ use ambulo_formats::table::Table;
 #[derive(Default)]
 pub(super) struct TableForces {
     pub(super) forces: Vec<ForceRecording>,
+    /// Names of loads that carry nothing at any time.
+    pub(super) idle: Vec<String>,
     /// Loaded times without a foot [s].
     pub(super) unassigned: Vec<[f64; 2]>,
-    /// How long loads carried something, all together [s].
+    /// Total loaded time of all loads [s].
     pub(super) loaded_s: f64,
     /// Whether the table is in body weights, so that it does not weigh the person.
     pub(super) is_relative: bool,
@@ -33,9 +35,9 @@ pub(super) struct Walker<'a> {
     pub(super) soles: &'a BySide<Option<Sole>>,
     /// The longest time without gaps.
     pub(super) window: Window,
-    /// From the axes of the markers to those of the world.
+    /// Rotation from the axes of the markers to world axes.
     pub(super) world_from_lab: Option<&'a Mat3>,
-    /// By how much the forces were recorded late [s].
+    /// Delay of the recorded forces [s].
     pub(super) delay_s: f64,
 }
 
@@ -50,7 +52,7 @@ impl Walker<'_> {
         if let Some(stated) = loads {
             let (forces, is_relative) = self.read(stated, table, paths.as_ref(), findings)?;
             self.report_other_feet(&forces, paths.as_ref(), findings);
-            return Ok(TableForces { forces, is_relative, ..TableForces::default() });
+            return Ok(TableForces { idle: idle(&forces), forces, is_relative, ..TableForces::default() });
         }
         let renamed = with_axis_last(table);
         let (stated, table) = (table, renamed.as_ref().unwrap_or(table));
@@ -102,7 +104,7 @@ impl Walker<'_> {
             None => vec![Vec::new(); forces.len()],
         };
         let is_shown = spans.iter().any(|spans| !spans.is_empty());
-        let (mut out, mut taken) = (TableForces::default(), Vec::new());
+        let (mut out, mut taken) = (TableForces { idle: idle(&forces), ..TableForces::default() }, Vec::new());
         for ((force, load), spans) in forces.into_iter().zip(columns).zip(&spans) {
             let by_name = load.side.or_else(|| usual_side(load, columns).filter(|_| !is_shown));
             let parts = match by_name {
@@ -158,6 +160,16 @@ impl Walker<'_> {
             findings.report(Code::LoadsUnderOtherFoot, message);
         }
     }
+}
+
+/// Whether a force is ever large enough for a centre of pressure.
+pub(super) fn is_loaded(force: &ForceRecording) -> bool {
+    force.force.iter().any(|force| force.norm() > CENTER_OF_PRESSURE_LOAD_N)
+}
+
+/// The names of loads that carry nothing at any time.
+fn idle(forces: &[ForceRecording]) -> Vec<String> {
+    forces.iter().filter(|force| !is_loaded(force)).map(|force| force.name.clone()).collect()
 }
 
 /// Whether a load is not in the axes of a body.

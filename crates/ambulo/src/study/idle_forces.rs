@@ -3,17 +3,19 @@
 //!
 //! They come from another trial or from other plates, or the plates were switched off. The ground forces are then
 //! predicted from the motion where none are left, but nothing is called feasible on them.
+//!
+//! A leg without any measured load may be the plan of a laboratory with one plate. It is a fault if the foot stood on a
+//! plate ([`IdleForces::lost`]): its load should have been measured.
 //! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 
-use super::force_table::TableForces;
+use super::force_table::{TableForces, is_loaded};
 use super::source::{MarkerSource, PlateAssignment, PlateUse};
 use crate::analysis::BodyInMotion;
 use crate::findings::{Code, Findings, and_more_times};
-use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
 use crate::ground::plates::{ContactQuality, SilentStance};
-use crate::motion::ForceRecording;
+use crate::model::{BySide, Side};
 
-/// Of the loaded time, loads under no foot may have at most this share in a motion that is judged.
+/// Largest share of the loaded time with loads under no foot in a motion that is judged.
 const MOST_UNASSIGNED: f64 = 0.5;
 
 /// Measured forces that cannot belong to this person and motion.
@@ -21,12 +23,14 @@ const MOST_UNASSIGNED: f64 = 0.5;
 pub(super) struct IdleForces {
     /// Loaded times without a foot [s].
     unassigned: Vec<[f64; 2]>,
-    /// Of the loaded time, the share that these are.
+    /// Share of the loaded time with these loads.
     unassigned_share: f64,
     /// Plates or tables without a load although feet are on them.
     silent: Vec<String>,
-    /// Of the stances on plates, the share without a load.
+    /// Share of the stances on plates without a load.
     silent_share: f64,
+    /// For each foot, why a load that should have been measured is not there; `None` if there is no such load.
+    lost: BySide<Option<String>>,
     /// Whether the forces were in body weights: they do not weigh the person.
     pub(super) is_relative: bool,
 }
@@ -41,10 +45,11 @@ impl IdleForces {
             silent_share: if is_silent { 1.0 } else { 0.0 },
             is_relative: found.is_relative,
             silent: if is_silent { vec!["the force table".to_owned()] } else { Vec::new() },
+            lost: BySide::from_fn(|_| found.idle.first().map(|load| format!("the load `{load}` of the table is zero"))),
         }
     }
 
-    /// Of the plates of a file, without those that the user switched off.
+    /// Idle forces of the plates of a file, without plates that the user switched off.
     pub(super) fn of_plates(body: &BodyInMotion, markers: &MarkerSource) -> IdleForces {
         let contacts = &body.on_plates.contacts;
         let unassigned: Vec<[f64; 2]> = contacts
@@ -61,6 +66,7 @@ impl IdleForces {
             silent_share: share(silent.len() as f64, (silent.len() + contacts.len()) as f64),
             is_relative: false,
             silent,
+            lost: BySide::from_fn(|side| lost_on_plates(body, markers, side)),
         }
     }
 
@@ -73,6 +79,11 @@ impl IdleForces {
     /// The share of the stances on plates that show no load, with the first of them; `None` if there is none.
     pub(super) fn silent(&self) -> Option<(f64, &str)> {
         Some((self.silent_share, self.silent.first()?))
+    }
+
+    /// Why a load of a foot that should have been measured is not there; `None` if there is no such load.
+    pub(super) fn lost(&self, side: Side) -> Option<&str> {
+        self.lost[side].as_deref()
     }
 
     /// Why the measured forces do not support a verdict; `None` if they do.
@@ -100,21 +111,34 @@ impl IdleForces {
     }
 }
 
-/// Whether a force is ever large enough for a centre of pressure.
-pub(super) fn is_loaded(force: &ForceRecording) -> bool {
-    force.force.iter().any(|force| force.norm() > CENTER_OF_PRESSURE_LOAD_N)
-}
-
 /// The places of stances on plates without a load; plates that the user switched off are left out.
 fn silent_stances(body: &BodyInMotion, markers: &MarkerSource) -> Vec<String> {
-    let is_off = |plate: usize| {
-        let is_it = |known: &&PlateAssignment| markers.plate_at(known.plate) == Some(plate);
-        markers.plates.iter().filter(is_it).any(|known| known.used == PlateUse::Off)
+    let silent = body.on_plates.silent.iter().filter(|stance| !is_off(markers, stance.plate));
+    silent.map(|stance| place(body, stance)).collect()
+}
+
+fn is_off(markers: &MarkerSource, plate: usize) -> bool {
+    let is_it = |known: &&PlateAssignment| markers.plate_at(known.plate) == Some(plate);
+    markers.plates.iter().filter(is_it).any(|known| known.used == PlateUse::Off)
+}
+
+fn place(body: &BodyInMotion, SilentStance { plate, side, span: [from, to] }: &SilentStance) -> String {
+    format!("{} under the {side} foot, {from:.3}-{to:.3} s", body.plates[*plate].name)
+}
+
+/// Why a load of a foot is not there although a plate was under it, or may have been. Loads that belong to no foot
+/// alone have warnings of their own.
+fn lost_on_plates(body: &BodyInMotion, markers: &MarkerSource, side: Side) -> Option<String> {
+    let silent = || {
+        let stance = body.on_plates.silent.iter().find(|stance| stance.side == side)?;
+        let state = if is_off(markers, stance.plate) { "was left out" } else { "shows no load" };
+        Some(format!("{} {state}", place(body, stance)))
     };
-    let place = |SilentStance { plate, side, span: [from, to] }: &SilentStance| {
-        format!("{} under the {side} foot, {from:.3}-{to:.3} s", body.plates[*plate].name)
+    let unread = || {
+        let is_lacking = markers.trial.stated_plates > markers.trial.recording.plates.len();
+        is_lacking.then(|| "a force plate of the file could not be read".to_owned())
     };
-    body.on_plates.silent.iter().filter(|stance| !is_off(stance.plate)).map(place).collect()
+    silent().or_else(unread)
 }
 
 fn share(part: f64, whole: f64) -> f64 {

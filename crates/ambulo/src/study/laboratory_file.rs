@@ -214,7 +214,7 @@ impl LaboratoryFile {
 /// repeated.
 ///
 /// # Errors
-/// Those of `read`.
+/// Errors of `read`.
 pub fn standing_trial<T, E>(findings: &mut Findings, read: impl FnOnce(&mut Findings) -> Result<T, E>) -> Result<T, E> {
     let mut own = Findings::default();
     let file = read(&mut own);
@@ -230,6 +230,7 @@ pub fn standing_trial<T, E>(findings: &mut Findings, read: impl FnOnce(&mut Find
 /// Oddities of a file become findings.
 fn report_remarks(label: &str, remarks: &[Remark], findings: &mut Findings) {
     for remark in remarks {
-        findings.report(Code::FileOdd, format!("{label}: {remark}"));
+        let code = if remark.is_about_clock { Code::MotionClock } else { Code::FileOdd };
+        findings.report(code, format!("{label}: {remark}"));
     }
 }

@@ -1,7 +1,7 @@
-//! Body mass: what states or weighs it, which of these is used, and whether they agree.
+//! Body mass: stated, or weighed on plates; which value is used, and whether the values agree.
 //!
 //! Three measurements are compared in pairs: a standing trial, the motion on the force plates, and the stated mass.
-//! Where two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
+//! If two disagree, the third one decides. The errors are not symmetric: a load that rests next to the plates makes
 //! the person too light on them, while only a wrong calibration or a carried load makes the person too heavy.
 
 use super::source::{MarkerBody, MarkerSource};
@@ -13,7 +13,7 @@ use crate::numerics::elementary::hypot;
 use crate::spatial::STANDARD_GRAVITY;
 use serde::{Deserialize, Serialize};
 
-/// Masses that differ by less, as a share, are one person's: clothes and shoes, a scale at home, a plate's calibration.
+/// Largest relative difference between masses of one person: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
 /// The mass of a body that was made with a mass differs from it by roundings only, as a share.
 const SAME_MASS: f64 = 1e-6;
@@ -149,9 +149,9 @@ impl MassEstimate {
 /// Estimates of the mass that do not need the motion.
 #[derive(Debug, Clone, Default)]
 pub struct KnownMass {
-    /// What the user states.
+    /// Mass stated by the user.
     pub stated: Option<MassEstimate>,
-    /// What the plates weigh in a standing trial.
+    /// Mass from the plates in a standing trial.
     pub standing: Option<MassEstimate>,
 }
 
@@ -160,7 +160,7 @@ impl KnownMass {
         KnownMass { stated: kg.map(MassEstimate::stated), standing: None }
     }
 
-    /// Of a recording of markers: the user's statement has priority over the files.
+    /// Known masses of a recording of markers: the user's statement has priority over the files.
     pub(super) fn of_markers(markers: &MarkerSource) -> KnownMass {
         let MarkerSource { trial, standing, body, .. } = markers;
         let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
@@ -176,7 +176,7 @@ impl KnownMass {
         KnownMass { stated: stated.map(MassEstimate::stated), standing }
     }
 
-    /// Whether the motion on the plates is needed to know the mass.
+    /// Whether the mass must be determined from the motion on the plates.
     pub fn needs_motion(&self) -> bool {
         match (&self.stated, &self.standing) {
             (Some(stated), Some(standing)) => !stated.agrees(standing),
@@ -204,7 +204,7 @@ impl KnownMass {
 }
 
 impl BodyMass {
-    /// From all sources; `model_kg` is the mass that the forces are computed with.
+    /// The mass from all sources; `model_kg` is the mass that the forces are computed with.
     #[doc(hidden)] // for tests
     pub fn of(model_kg: f64, known: &KnownMass, motion: Vec<MassEstimate>, normalised_by: MassSource) -> BodyMass {
         let moving = combined(&motion);

@@ -6,8 +6,8 @@
 //!                 prediction for the others -------------------> inverse dynamics with all forces -> tables
 //! ```
 //!
-//! Whether data and movement are good is judged on the measured forces alone. The tables have those that are complete:
-//! a leg that carries the body on ground without a plate has no moments otherwise.
+//! Quality and verdict are judged on the measured forces alone. The tables use the completed forces, because a leg that
+//! carries the body on ground without a plate would have no moments otherwise.
 
 use super::observation::Observation;
 use super::settings::Settings;
@@ -21,16 +21,18 @@ use crate::findings::{Code, Findings, and_more_times};
 use crate::ground::footfalls::{Footfalls, footfalls};
 use crate::ground::phases::contacts_from_force;
 use crate::ground::predict::{Prediction, total_wrench};
-use crate::ground::stances::{LoadedTime, MeasuredMotion, Missing, Stance, StanceSource, VerticalForces, completed};
+use crate::ground::stances::{
+    LoadedTime, MeasuredMotion, Missing, Stance, StanceSource, VerticalForces, completed, measured_share,
+};
 use crate::kinematics::Trajectory;
-use crate::model::{BySide, Model};
+use crate::model::{BySide, Model, Side};
 use crate::motion::{Motion, interpolate};
 
 /// The stances of a measured motion, and forces for those that were not measured.
 pub(super) struct StanceLoads {
     /// All stances, in order of time.
     pub(super) stances: Vec<Stance>,
-    /// As the motion shows them.
+    /// The stances that the motion shows.
     pub(super) footfalls: Footfalls,
     missing: Vec<Missing>,
     prediction: Option<Prediction>,
@@ -43,7 +45,7 @@ pub(super) struct Measured {
     pub(super) processing: AnalysisSettings,
 }
 
-/// Analyses a motion with its measured forces, and predicts those that are missing.
+/// Analyses a motion with its measured forces, and predicts the forces that are missing.
 pub(super) fn measured(
     observation: &Observation,
     motion: &Motion,
@@ -99,7 +101,7 @@ fn loaded_times(observation: &Observation) -> Vec<LoadedTime> {
     vertical_by_side(model, forces, model.up()).into_iter().flat_map(of_side).collect()
 }
 
-/// Measured vertical forces, and those that the motion requires.
+/// Measured vertical forces, and the vertical forces that the motion requires.
 fn vertical_forces(observation: &Observation, trajectory: &Trajectory) -> VerticalForces {
     let Observation { model, forces, .. } = observation;
     let (grid, up) = (trajectory.grid(), model.up());
@@ -127,11 +129,12 @@ fn report(stances: &[Stance], findings: &mut Findings) {
         let found: Vec<&Stance> = stances.iter().filter(|stance| stance.source == source).collect();
         let first = *found.first()?;
         Some(format!(
-            "the load of the {} foot from {:.3} to {:.3} s{} was not measured",
+            "the load of the {} foot from {:.3} to {:.3} s{} was not measured{}",
             first.side,
             first.start_s,
             first.end_s,
-            and_more_times(found.len())
+            and_more_times(found.len()),
+            legs_without_measured_stance(stances)
         ))
     };
     if let Some(what) = of(StanceSource::Predicted) {
@@ -147,6 +150,13 @@ fn report(stances: &[Stance], findings: &mut Findings) {
         );
         findings.report(Code::StancesUnknown, message);
     }
+}
+
+/// Which leg has no measured stance at all, to be added to a sentence.
+fn legs_without_measured_stance(stances: &[Stance]) -> String {
+    let without =
+        Side::BOTH.into_iter().filter(|side| measured_share(stances, *side).is_some_and(|share| share <= 0.0));
+    without.map(|side| format!(", nor that of any other stance of the {side} leg")).collect()
 }
 
 impl StanceLoads {

@@ -1,4 +1,4 @@
-//! From a recording to the forces behind it: the one road that the command, the validation and every other program
+//! From a recording to the forces behind it: the single path that the command, the validation and every other program
 //! takes.
 //!
 //! ```text
@@ -6,8 +6,9 @@
 //!           with measured forces and what the laboratory stated
 //! Settings  filters, time range, how the ground forces are found
 //!    |
-//!   run  -> markers, sensors or skeleton to a body in motion -> smoothing -> ground forces (measured, predicted or tracked)
-//!    |      -> inverse dynamics -> events, cycles, body mass -> checks -> residual reduction -> verdict
+//!   run  -> markers, sensors or skeleton to a body in motion -> smoothing
+//!    |      -> ground forces (measured, predicted or tracked) -> inverse dynamics -> events, cycles, body mass
+//!    |      -> checks -> residual reduction -> verdict
 //!    v
 //! Outcome   body, motion, ground forces, joint forces, events, cycles, mass, comparison with plates, verdict
 //! ```
@@ -23,9 +24,12 @@ mod force_directions;
 mod force_filter;
 mod force_table;
 mod idle_forces;
+mod knee_adduction;
+mod knee_angles;
 mod laboratory_file;
 pub(crate) mod mass;
 mod measured;
+mod misfits;
 mod not_measured;
 mod observation;
 mod opensim_setup;
@@ -36,6 +40,7 @@ mod prediction;
 pub(crate) mod quality;
 mod recorded_clock;
 mod refit;
+mod region_fit;
 mod run;
 pub mod session;
 mod settings;
@@ -46,6 +51,7 @@ mod table_axes;
 mod timing;
 mod tracked;
 pub(crate) mod trial_list;
+mod unmeasured_leg;
 pub mod validation;
 mod weighing;
 
@@ -66,6 +72,7 @@ pub use personal::{CalibrationError, personal_errors};
 #[doc(hidden)]
 pub use quality::{Measure, QualityLimits, QualityReason};
 pub use quality::{Quality, QualityState};
+pub use region_fit::RegionFit;
 pub use run::{run, run_observed};
 pub use settings::{GroundSettings, Settings};
 pub use size::StatedSize;

@@ -3,10 +3,10 @@
 //! | coordinate | why it is not measured |
 //! |---|---|
 //! | held: one value in every frame | no marker, sensor or column determines it; an anatomical angle of a moving person is never constant |
-//! | on its limit in more than a tenth of the frames | the fit stops there, whatever the recording shows: a marker is misplaced, or the joint was folded the wrong way |
+//! | on its limit in more than a tenth of the frames | the fit stops at the limit: a marker is misplaced, or the joint was folded in the wrong direction |
 //!
-//! Ranges are those of joints without load ([`crate::model::anthropometry`]), which no walk reaches for a tenth of the
-//! time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
+//! The ranges are passive ranges of joints ([`crate::model::anthropometry`]), which walking does not reach for a tenth of
+//! the time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
 //! none of them.
 
 use crate::findings::{Code, Findings};
@@ -15,19 +15,18 @@ use crate::motion::Motion;
 
 /// Largest share of the frames on a limit.
 const ON_LIMIT: f64 = 0.1;
-/// A coordinate on its limit is this near to it [rad, m]: the fit ends exactly there.
+/// Largest distance of a coordinate from the limit on which it counts as being [rad, m]: the fit ends exactly on it.
 const AT_M: f64 = 1e-9;
 
 /// A coordinate that is not measured.
 struct NotMeasured {
     coordinate: CoordinateId,
-    /// Why, for messages: after the name of the coordinate.
+    /// The reason, as words that follow the name of the coordinate in messages.
     why: String,
     is_held: bool,
 }
 
-/// Finds and reports the coordinates of a motion, fitted to a recording, that are not measured.
-/// Each comes with whether it is held.
+/// Finds and reports the coordinates of a fitted motion that are not measured. Each is returned with whether it is held.
 pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     let asked = || model.coordinate_ids().filter(|id| is_asked(model, *id));
     let found: Vec<NotMeasured> = asked().filter_map(|id| of_coordinate(model, motion, id)).collect();

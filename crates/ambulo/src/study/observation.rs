@@ -1,11 +1,12 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
-use super::force_table::{TableForces, Walker};
-use super::idle_forces::{IdleForces, is_loaded};
+use super::force_table::{TableForces, Walker, is_loaded};
+use super::idle_forces::IdleForces;
 use super::laboratory_file::LaboratoryFile;
 use super::mass::{KnownMass, MassEstimate, report_decided};
 use super::origin::Tracking;
+use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::size::StatedSize;
 use super::source::{
@@ -16,12 +17,13 @@ use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{
     AnalysisError, BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
+    joints_of_movement,
 };
 use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
 use crate::ground::predict::checksum;
 use crate::kinematics::Trajectory;
-use crate::kinematics::calibration::{self, BodyMeasurements};
+use crate::kinematics::calibration::{self, BodyMeasurements, JointCentres};
 use crate::kinematics::retarget::retarget;
 use crate::kinematics::sensor_fit::{SensorTrial, fit_sensors};
 use crate::model::anthropometry::Build;
@@ -34,6 +36,7 @@ use crate::numerics::median;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A body and the forces under its feet, as observed.
 pub(super) struct Observation {
@@ -43,17 +46,17 @@ pub(super) struct Observation {
     /// Measured forces that do not carry the person.
     pub(super) idle: IdleForces,
     pub(super) origin: Origin,
-    /// Whether the forces are those of the force plates of the recording.
+    /// Whether the forces come from the force plates of the recording.
     pub(super) is_from_plates: bool,
     /// Estimates of the body mass that do not need the motion.
     pub(super) known_mass: KnownMass,
     /// Joint moments of a worn device.
     pub(super) device: Option<Table>,
-    /// Whether the mass is that of a given model alone: none is stated, and no load was added.
+    /// Whether the mass comes from a given model alone: none is stated, and no load was added.
     pub(super) has_models_mass: bool,
 }
 
-/// A motion as observed; it is apart from the body, because a long one is dropped as soon as it is smoothed.
+/// A motion as observed. It is stored separately from the body, because a long motion is dropped after smoothing.
 #[derive(Clone)]
 pub(super) enum ObservedMotion {
     /// Samples, possibly with gaps.
@@ -62,12 +65,13 @@ pub(super) enum ObservedMotion {
     Complete(Trajectory),
 }
 
-/// Data of a recording besides the motion.
+/// Data of a recording other than the motion.
 struct Statements {
     forces: MeasuredForces,
     device: Option<Table>,
     added_mass: Vec<AddedMass>,
     stated: StatedSize,
+    movement: Option<Arc<LaboratoryFile>>,
 }
 
 /// The kind of recording that a body in motion was made from.
@@ -82,7 +86,7 @@ pub(super) enum Origin {
     },
 }
 
-/// A body that followed markers, and what the files state besides.
+/// A body that followed markers, and further statements of the files.
 pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
@@ -106,7 +110,7 @@ impl Observation {
         Carried::new(&self.model, trajectory, &self.forces, &self.person.soles, body).estimates()
     }
 
-    /// Whether a mass that force plates measure replaces that of the model.
+    /// Whether a mass that force plates measure replaces the mass of the model.
     pub(super) fn takes_weighed_mass(&self) -> bool {
         self.has_models_mass && (!self.forces.is_empty() || self.known_mass.standing.is_some())
     }
@@ -127,7 +131,7 @@ impl Observation {
         Ok(())
     }
 
-    /// Whether forces are predicted: if that is wanted, or if no forces were measured.
+    /// Whether forces are predicted: on request, or if no forces were measured.
     pub(super) fn is_predicted(&self, settings: &Settings) -> bool {
         match (&self.origin, settings.ground) {
             (Origin::Simulation { .. }, _) | (_, GroundSettings::NoContact) => false,
@@ -177,9 +181,9 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
-        let Source { recording, forces, device, added_mass, stated } = self;
+        let Source { recording, forces, device, added_mass, stated, movement } = self;
         let statements =
-            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated };
+            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated, movement };
         let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
         match recording {
             Recording::Coordinates { model, motion } => {
@@ -230,7 +234,7 @@ impl Statements {
             settings.ground != GroundSettings::NoContact && !matches!(self.forces, MeasuredForces::InRecording);
         let motion = self.stated.moved(model, motion, is_measured);
         let model = self.stated.applied(model, findings)?;
-        // A load makes nobody stronger.
+        // A carried load does not change the person's strength.
         let person = Person { estimated: self.stated.height_m.is_none(), ..Person::of_model(&model) };
         let model = self.loaded(model)?;
         self.with_forces((model, person, motion), Origin::Coordinates, settings, findings)
@@ -317,15 +321,16 @@ impl Statements {
         let motion = body.fit.motion.clone();
         let observation = Observation {
             person: Person::of_human(&body.human),
-            model: self.loaded(body.human.model)?,
             forces: Vec::new(),
             idle: IdleForces::default(),
             is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
+                regions: RegionFit::of(&body.human.model, &body.fit),
                 fit: Box::new(body.fit),
                 flights: body.flights,
             })),
+            model: self.loaded(body.human.model)?,
             known_mass: KnownMass::stated(Some(build.mass)),
             device: self.device,
             has_models_mass: false,
@@ -459,7 +464,7 @@ impl Statements {
                 BodySource::Model { model: &model, mass: *mass_kg, protocol: protocol.as_deref() }
             }
             MarkerBody::BuiltIn { set, .. } => {
-                person = markers.person()?;
+                person = markers.person(settings)?;
                 BodySource::BuiltIn { person: &person, set: set.as_ref() }
             }
             MarkerBody::Calibrated(subject) => BodySource::Calibrated(subject),
@@ -477,13 +482,20 @@ impl Statements {
         if let Some(standing) = standing {
             report_other_person(&markers.trial.subject, &standing.subject, findings);
         }
-        let trial = MarkerTrial {
+        let mut trial = MarkerTrial {
             trial: &trial,
             standing: standing.map(|standing| &standing.recording),
             bodies: standing.map(|standing| &standing.bodies),
             body,
             plate_feet: &plate_feet,
         };
+        let shown;
+        if let (Some(movement), BodySource::BuiltIn { person, set }) = (&self.movement, &trial.body) {
+            let joints = joints_of_movement(&trial, &movement.recording, findings)?;
+            let measurements = BodyMeasurements { joints, ..person.measurements };
+            shown = calibration::PersonMeasurements { measurements, ..(*person).clone() };
+            trial.body = BodySource::BuiltIn { person: &shown, set: *set };
+        }
         Ok(fit_body_to_markers(&trial, &settings.marker_fit, findings, progress)?)
     }
 }
@@ -576,7 +588,7 @@ impl MarkerSource {
     }
 
     /// Measurements of the person, for the built-in body.
-    fn person(&self) -> Result<calibration::PersonMeasurements, StudyError> {
+    fn person(&self, settings: &Settings) -> Result<calibration::PersonMeasurements, StudyError> {
         let MarkerSource { trial, standing, body, .. } = self;
         let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
         let still = || standing.as_ref().map(|standing| -> &LaboratoryFile { standing });
@@ -585,7 +597,10 @@ impl MarkerSource {
             table: *table,
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
-            measurements: BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name))),
+            measurements: BodyMeasurements {
+                joints: JointCentres { hip: settings.hip, knee_axis: settings.knee_axis, ..JointCentres::default() },
+                ..BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name)))
+            },
         })
     }
 }

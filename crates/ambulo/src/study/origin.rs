@@ -1,5 +1,6 @@
-//! Where the forces of a study come from, and how its body follows what was recorded.
+//! The source of the forces of a study, and the fit of its body to the recording.
 
+use super::region_fit::RegionFit;
 use crate::analysis::{BodyInMotion, Event};
 use crate::kinematics::FlightGravity;
 use crate::kinematics::marker_fit::MarkerFit;
@@ -40,9 +41,23 @@ pub enum Tracking {
         statement: String,
         /// How well the body follows.
         fit: Box<MarkerFit>,
+        /// The same by region of the body.
+        regions: Vec<RegionFit>,
         /// How the person falls in flight, at the stated frame rate; `None` without a flight.
         flights: Option<FlightGravity>,
     },
+}
+
+impl Tracking {
+    /// How well the body follows, by region of the body: those that have markers, in the order of
+    /// [`Region::ALL`](crate::model::Region::ALL).
+    #[must_use]
+    pub fn regions(&self) -> &[RegionFit] {
+        match self {
+            Tracking::Markers(tracked) => &tracked.regions,
+            Tracking::Skeleton { regions, .. } => regions,
+        }
+    }
 }
 
 /// A body that follows markers.
@@ -50,8 +65,10 @@ pub enum Tracking {
 pub struct TrackedMarkers {
     /// The body, its motion, and which foot was on which plate.
     pub body: BodyInMotion,
+    /// How well it follows, by region of the body.
+    pub regions: Vec<RegionFit>,
     /// Foot strikes and foot offs that the file lists.
     pub listed_events: Vec<Event>,
-    /// Those that plates measured.
+    /// Events that plates measured.
     pub measured_events: Vec<Event>,
 }

@@ -11,7 +11,7 @@ use crate::analysis::{
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::predict::Prediction;
-use crate::ground::stances::{Stance, StanceSource};
+use crate::ground::stances::{Stance, measured_share};
 use crate::model::{BySide, CoordinateId, Model, Side};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
@@ -70,7 +70,7 @@ pub struct Processing {
     pub smoother: Smoother,
     /// Low-pass of the measured forces.
     pub force_filter: Option<LowPass>,
-    /// The time range that was asked for, or that long gaps of markers leave.
+    /// The requested time range, or the range that long gaps of markers leave.
     pub window: Window,
 }
 
@@ -91,6 +91,8 @@ pub struct TrackedGround {
     pub moved: [f64; 2],
     /// Largest change of each rotation [rad], by the name of its coordinate.
     pub turned: Vec<(String, f64)>,
+    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [m]; `None` without arms.
+    pub hands_m: Option<f64>,
     /// Steps of the solver.
     pub steps: usize,
     /// How the prediction that it started from agrees with measured forces; `None` where nothing was measured
@@ -123,8 +125,8 @@ impl PredictedGround {
 }
 
 impl Outcome {
-    /// The analysis that tables and figures show: that of the measured forces, with predicted ones in the stances that
-    /// were not measured. Events, cycles, mass and residual are those of [`Outcome::analysis`].
+    /// The analysis that tables and figures show: of the measured forces, with predicted ones in the stances that were
+    /// not measured. Events, cycles, mass and residual come from [`Outcome::analysis`].
     #[must_use]
     pub fn complete(&self) -> &Analysis {
         self.completed.as_ref().unwrap_or(&self.analysis)
@@ -135,12 +137,7 @@ impl Outcome {
     #[must_use]
     pub fn measured_share(&self, side: Side) -> Option<f64> {
         let is_measured = matches!(self.force_origin, ForceOrigin::Measured | ForceOrigin::Mixed { .. });
-        let loaded_s = |of: fn(&StanceSource) -> bool| -> f64 {
-            let own = self.stances.iter().filter(|stance| stance.side == side && of(&stance.source));
-            own.map(|stance| stance.end_s - stance.start_s).fold(0.0, |sum, duration_s| sum + duration_s)
-        };
-        let all_s = loaded_s(|_| true);
-        (is_measured && all_s > 0.0).then(|| loaded_s(StanceSource::is_measured) / all_s)
+        measured_share(&self.stances, side).filter(|_| is_measured)
     }
 
     /// For each frame the source of the load of a foot, as [`StanceSource::number`]; a foot in the air is measured.

@@ -1,5 +1,5 @@
-//! The calibration of a person: what force plates show about the prediction in some trials, for the other trials of the
-//! person.
+//! The calibration of a person: errors of the prediction against force plates in some trials, for the other trials of
+//! the person.
 
 use super::outcome::{Outcome, PredictedGround};
 use super::quality::QualityState;
@@ -20,7 +20,7 @@ pub enum CalibrationError {
         "the trial has no force plates; expected the forces that plates measured, to compare the prediction with them"
     )]
     NoPlates {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
     },
     /// No foot on a separate plate.
@@ -28,7 +28,7 @@ pub enum CalibrationError {
         "no foot was wholly on a separate plate from strike to off; expected at least one such stance in each trial"
     )]
     NoStance {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
     },
     /// Running, squatting or another activity.
@@ -36,7 +36,7 @@ pub enum CalibrationError {
         "the person does not walk in this trial ({found}); expected walking, because other activities have other errors"
     )]
     NotWalking {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
         /// Recognised activity.
         found: &'static str,
@@ -44,7 +44,7 @@ pub enum CalibrationError {
     /// Data that do not fit together.
     #[error("the quality of the trial is bad ({reason}); expected a trial whose markers, force plates and mass agree")]
     BadTrial {
-        /// Which one.
+        /// Number of the trial.
         trial: usize,
         /// The first reason of its quality.
         reason: String,
@@ -62,7 +62,7 @@ pub enum CalibrationError {
     OtherPerson {
         /// The trial that differs from the first one.
         trial: usize,
-        /// How it differs.
+        /// How the persons differ.
         error: OtherPerson,
     },
 }
@@ -94,13 +94,13 @@ pub fn personal_errors(trials: &[Outcome]) -> Result<PersonalErrors, Calibration
     let mut deviations: BySide<Vec<[f64; 3]>> = BySide { right: Vec::new(), left: Vec::new() };
     let mut first: Option<PersonalErrors> = None;
     for (trial, outcome) in trials.iter().enumerate() {
+        if outcome.activity.kind != ActivityKind::Walk {
+            return Err(CalibrationError::NotWalking { trial, found: outcome.activity.kind.words() });
+        }
         let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or(CalibrationError::NoPlates { trial })?;
         let (measured, coverage) =
             measured.as_ref().zip(coverage.as_ref()).ok_or(CalibrationError::NoPlates { trial })?;
-        if outcome.activity.kind != ActivityKind::Walk {
-            return Err(CalibrationError::NotWalking { trial, found: outcome.activity.kind.words() });
-        }
         if outcome.quality.state == QualityState::Bad {
             let reason = outcome.quality.reasons.first().map_or_else(String::new, |reason| reason.message.clone());
             return Err(CalibrationError::BadTrial { trial, reason });

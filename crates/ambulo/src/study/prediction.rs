@@ -24,7 +24,7 @@ pub(super) struct Found {
     pub(super) measured_events: Vec<Event>,
     /// The stances of measured forces.
     pub(super) loads: Option<StanceLoads>,
-    /// With the time in which nothing is missing.
+    /// Settings of the analysis, with the time range in which no force is missing.
     pub(super) processing: analysis::AnalysisSettings,
 }
 

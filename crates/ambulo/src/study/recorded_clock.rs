@@ -1,11 +1,14 @@
-//! The clock of a recording before anything is computed from it: the time between its samples, held samples, and the
+//! Checks of the clock of a recording before any computation: the time between its samples, held samples, and the
 //! delay of the forces that the caller states.
 //! Pinned by: tests/study_timing.rs
 
 use super::error::StudyError;
 use super::source::{MarkerSource, MeasuredForces, Recording};
+use crate::analysis::LaboratoryRecording;
 use crate::findings::Findings;
-use crate::motion::{misread_step, release_held_coordinates, release_held_markers};
+use crate::motion::{
+    misread_step, release_held_coordinates, release_held_markers, release_held_poses, release_held_sensors,
+};
 use crate::numerics::median;
 
 impl Recording {
@@ -15,14 +18,15 @@ impl Recording {
         match &mut self {
             Recording::Coordinates { model, motion } => release_held_coordinates(model, motion, findings),
             Recording::Markers(markers) => {
-                release_held_markers(&mut markers.trial.recording.markers, findings);
+                markers.trial.recording.release_held(findings);
                 markers.shift_plates(delay_s);
             }
             Recording::Skeleton { skeleton, .. } => {
                 release_held_markers(&mut skeleton.markers, findings);
                 skeleton.markers = skeleton.markers.trimmed_to_visible();
             }
-            Recording::Sensors(_) | Recording::Complete(_) => {}
+            Recording::Sensors(sensors) => release_held_sensors(&mut sensors.moving, findings),
+            Recording::Complete(_) => {}
         }
         Ok(self)
     }
@@ -49,6 +53,20 @@ fn check_step(times: &[f64]) -> Result<(), StudyError> {
     }
 }
 
+impl LaboratoryRecording {
+    /// Makes gaps of the held samples of markers, or of poses and the points that follow from them.
+    fn release_held(&mut self, findings: &mut Findings) {
+        match &mut self.poses {
+            None => release_held_markers(&mut self.markers, findings),
+            Some(poses) => {
+                if release_held_poses(poses, findings) {
+                    self.markers = poses.points(&self.markers.name);
+                }
+            }
+        }
+    }
+}
+
 impl MarkerSource {
     /// Moves what the force plates measured to earlier times [s].
     fn shift_plates(&mut self, delay_s: f64) {
@@ -60,7 +78,7 @@ impl MarkerSource {
 }
 
 impl MeasuredForces {
-    /// Forces on bodies without a delay; those of plates and tables lose it where they are read.
+    /// Forces on bodies without a delay; from plates and tables the delay is removed where they are read.
     pub(super) fn without_delay(mut self, delay_s: f64) -> MeasuredForces {
         if let MeasuredForces::OnBodies(forces) = &mut self
             && delay_s.abs() > 0.0

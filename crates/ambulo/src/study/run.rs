@@ -1,23 +1,26 @@
-//! The road from a recording to forces.
+//! Runs a study: from a recording to forces.
 
 use super::error::StudyError;
 use super::force_directions::ForceDirections;
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::measured::{Measured, StanceLoads, measured};
+use super::misfits;
 use super::not_measured::not_measured;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights, marker_fit_rms_m, rms_of_parts_m};
+use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights};
 use super::refit::refitted;
+use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
 use super::timing::{PlateTiming, Tempo};
 use super::tracked::tracked;
+use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
-use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Verdict};
+use crate::analysis::feasibility::{self, Check, MotionAndForces, Person, PredictedForces, Reason, Verdict};
 use crate::analysis::{
     self, Adjustable, Analysis, ForceSource, PredictionChecks, Progress, Stage, TimesAndDistances, analyse_measured,
     reduce_residual, times_and_distances,
@@ -95,7 +98,7 @@ fn road(
     let processing = processing(&observed, recorded.is_none(), settings, findings);
     let (observed, found, mass) = weighed(observed, motion, processing, settings, findings, progress)?;
     let Found { analysis, prediction, measured_events, loads, processing } = found;
-    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), &processing, findings);
+    let timing = plate_timing(&observed, &analysis, prediction.as_ref(), loads.as_ref(), &processing, findings);
     let directions = ForceDirections::of(&observed, &analysis.trajectory);
     directions.report(findings);
     let Observation { model, person, origin, idle, .. } = observed;
@@ -105,7 +108,7 @@ fn road(
     let subject = origin.subject();
     let (partly_measured, place_is_derived) = (origin.partly_measured(), matches!(origin, Origin::Sensors));
     let tracking = tracking(origin, measured_events);
-    report_arms(tracking.as_ref(), findings);
+    misfits::report(tracking.as_ref().map_or(&[], Tracking::regions), findings);
     let computed = Computed {
         subject,
         body: reduction.as_ref().map_or(model, |reduced| reduced.model.clone()),
@@ -133,8 +136,8 @@ fn road(
     Ok(outcome)
 }
 
-/// Forces and body mass; where force plates carry another mass than that of a given model, and none is stated, those of
-/// the model with the weighed mass.
+/// Forces and body mass. If force plates carry another mass than a given model has, and no mass is stated, the model
+/// with the weighed mass is used.
 fn weighed(
     mut observed: Observation,
     motion: ObservedMotion,
@@ -169,7 +172,7 @@ struct Computed {
     device: Option<Vec<Vec<f64>>>,
     mass: BodyMass,
     idle: IdleForces,
-    /// What force plates say about the clock.
+    /// The clock of the recording by its force plates.
     timing: PlateTiming,
     directions: ForceDirections,
     tracking: Option<Tracking>,
@@ -187,25 +190,16 @@ struct Computed {
 impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
-        let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
-        let loads = self.loads.as_ref();
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
-        let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
-        let judged = Judged {
-            activity: activity.kind,
-            stances: &stances,
-            cutoff_hz: processing.smoother.cutoff_hz(),
-            model: &body,
-            person: &person,
-            analysis: &analysis,
-            device: self.device.as_deref(),
-            checks: prediction.as_ref().map(|found| &found.checks),
-        };
-        let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
-        let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
-        let verdict = self.directions.set_aside(verdict, &force_origin);
-        let strides = times_and_distances(&body, &person.soles, &analysis);
-        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
+        let Computed { body, person, analysis, prediction, mass, tracking, processing, .. } = &self;
+        let (loads, force_origin) = (self.loads.as_ref(), self.force_origin);
+        let stances = stances(body, person, analysis, prediction.as_ref(), loads, *processing);
+        let activity = recognised(body, person, analysis, &stances, &force_origin, findings);
+        let verdict = self.verdict(activity.kind, &stances, settings, findings);
+        let listed = loads.map_or_else(|| stances_of(analysis, prediction.as_ref()), |loads| loads.stances.clone());
+        let unmeasured_leg = UnmeasuredLeg::of(&listed, &self.idle);
+        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
+        let strides = times_and_distances(body, &person.soles, analysis);
+        let by_gait = || tempo_of_gait(body, person, analysis, &stances, &strides, activity.kind, findings);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
@@ -214,37 +208,62 @@ impl Computed {
             is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
             tracking: tracking.as_ref(),
             place_is_derived: self.place_is_derived,
-            mass: &mass,
+            mass,
             not_measured: &self.not_measured,
-            model: &body,
+            model: body,
             idle: &self.idle,
+            unmeasured_leg: unmeasured_leg.as_ref(),
             directions: &self.directions,
-            heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
+            heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &stances, activity.kind),
             verdict: &verdict,
             delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
             tempo: self.timing.tempo.or_else(by_gait),
         };
         Outcome {
-            stances: loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone()),
-            completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
+            stances: listed,
+            completed: loads.and_then(|loads| loads.complete(body, analysis)),
             force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
             quality: evidence.quality(),
-            mass: mass.after_reduction(body.mass()),
-            tracking,
+            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
+            processing: Processing::of(processing),
+            mass: self.mass.after_reduction(self.body.mass()),
+            tracking: self.tracking,
             activity,
             times_and_distances: strides,
-            body,
-            person,
-            analysis,
-            force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
-            prediction,
+            body: self.body,
+            person: self.person,
+            analysis: self.analysis,
+            prediction: self.prediction,
             residual_reduction: self.reduction,
             device: self.device,
             not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
-            processing: Processing::of(&processing),
             subject: self.subject,
         }
+    }
+
+    /// The verdict, without the limits that faults of the data exceed.
+    fn verdict(
+        &self,
+        activity: ActivityKind,
+        stances: &Footfalls,
+        settings: &Settings,
+        findings: &mut Findings,
+    ) -> Verdict {
+        let judged = Judged {
+            activity,
+            stances,
+            cutoff_hz: self.processing.smoother.cutoff_hz(),
+            model: &self.body,
+            person: &self.person,
+            analysis: &self.analysis,
+            device: self.device.as_deref(),
+            checks: self.prediction.as_ref().map(|found| &found.checks),
+        };
+        let origin = &self.force_origin;
+        let verdict = judged.verdict(settings, origin, &self.partly_measured, findings);
+        let verdict = without_faults_of_data(verdict, self.tracking.as_ref(), &self.mass, &self.idle, origin);
+        self.directions.set_aside(verdict, origin)
     }
 }
 
@@ -274,11 +293,12 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     mass
 }
 
-/// What measured forces say about the clock, also those that a prediction is compared with; a fault is reported.
+/// Checks the clock against measured forces, also those that a prediction is compared with; reports a fault.
 fn plate_timing(
     observed: &Observation,
     analysis: &Analysis,
     prediction: Option<&PredictedGround>,
+    loads: Option<&StanceLoads>,
     processing: &analysis::AnalysisSettings,
     findings: &mut Findings,
 ) -> PlateTiming {
@@ -286,7 +306,9 @@ fn plate_timing(
         Some(predicted) => predicted.measured.as_ref(),
         None => Some(analysis).filter(|_| !matches!(observed.origin, Origin::Simulation { .. })),
     };
-    let found = measured.and_then(|measured| PlateTiming::of(observed, measured, processing)).unwrap_or_default();
+    let stances = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let timing = |measured| PlateTiming::of(observed, measured, stances, processing);
+    let found = measured.and_then(timing).unwrap_or_default();
     found.delay.iter().for_each(|delay| delay.report(findings));
     found.tempo.iter().for_each(|tempo| tempo.report(findings));
     found
@@ -326,7 +348,7 @@ fn stances<'p>(
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)
 }
 
-/// The clock by the gait, for activities in which people take steps on one level.
+/// The clock by the gait, for activities with steps on one level.
 fn tempo_of_gait(
     body: &Model,
     person: &Person,
@@ -363,18 +385,15 @@ fn recognised(
 /// plates that carry another weight than the body's, measured forces that belong to no foot. No movement changes the
 /// mean force on the ground from the weight.
 fn without_faults_of_data(
-    mut verdict: Verdict,
+    verdict: Verdict,
     tracking: Option<&Tracking>,
     mass: &BodyMass,
     idle: &IdleForces,
     force_origin: &ForceOrigin,
 ) -> Verdict {
-    if let Some(rms_m) = tracking.map(marker_fit_rms_m).filter(|rms_m| Measure::MarkerFit.is_bad(*rms_m)) {
-        let why = format!("the motion is not known: the recorded points are {:.0} mm from the body (rms)", 1e3 * rms_m);
-        verdict.set_aside(|_| true, why);
-    }
+    let mut verdict = misfits::set_aside(verdict, tracking.map_or(&[], Tracking::regions));
     let carried = mass.in_motion().filter(|_| *force_origin == ForceOrigin::Measured);
-    let of_weight = |check| matches!(check, Check::Support | Check::Acceleration | Check::Pull);
+    let of_weight = |reason: &Reason| matches!(reason.check, Check::Support | Check::Acceleration | Check::Pull);
     if let Some(carried) = carried.filter(|carried| Measure::Mass.is_bad(mass.disagreement(carried))) {
         let why = format!(
             "the force plates carry {:.1} kg, the body has {:.1} kg: body or plates are wrong, whatever the movement",
@@ -386,24 +405,6 @@ fn without_faults_of_data(
         verdict.set_aside(|_| false, why);
     }
     verdict
-}
-
-/// Reports arms that do not fit a body whose legs and trunk fit.
-fn report_arms(tracking: Option<&Tracking>, findings: &mut Findings) {
-    let Some(Tracking::Markers(tracked)) = tracking else { return };
-    let [of_legs, of_trunk, of_arms] = rms_of_parts_m(tracked);
-    if Measure::MarkerFit.is_bad(of_arms.max(0.0))
-        && ![of_legs, of_trunk].iter().any(|rms| Measure::MarkerFit.is_bad(rms.max(0.0)))
-    {
-        let message = format!(
-            "the markers of the arms are {:.0} mm from the body (rms), those of pelvis and legs {:.0} mm: the arms of \
-             the \
-             body are not those of the recording, which hardly changes the forces of the legs",
-            1e3 * of_arms,
-            1e3 * of_legs
-        );
-        findings.report(Code::MarkersArms, message);
-    }
 }
 
 /// Reports loaded feet that slide where forces were predicted; a refit may hold them.
@@ -524,7 +525,7 @@ fn processing(
     }
 }
 
-/// The time to analyse if none is asked for: all of it, or the longest time without a gap in what the markers show.
+/// The time to analyse by default: all of it, or the longest time without a long gap of markers.
 fn known_window(origin: &Origin, findings: &mut Findings) -> Window {
     let Some([from, to]) = origin.followed().and_then(|followed| followed.body.longest_without_gap_s()) else {
         return Window::default();
@@ -592,7 +593,7 @@ fn force_origin(origin: &Origin, prediction: Option<&PredictedGround>, settings:
     }
 }
 
-/// Residual reduction, if it is wanted. Predicted forces scale with the mass of the body, so they cannot correct it.
+/// Residual reduction, if requested. Predicted forces scale with the mass of the body, so they cannot correct it.
 fn residual_reduced(
     model: &Model,
     analysis: Analysis,
@@ -619,6 +620,7 @@ fn residual_reduced(
 fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
     match origin {
         Origin::Markers(followed) => Some(Tracking::Markers(Box::new(TrackedMarkers {
+            regions: RegionFit::of(&followed.body.subject.model, &followed.body.fit),
             body: followed.body,
             listed_events: followed.listed,
             measured_events,

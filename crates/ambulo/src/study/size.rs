@@ -54,7 +54,7 @@ impl StatedSize {
     }
 
     /// The motion of the scaled model: recorded lengths grow with the body, so that feet stay on the floor and do not
-    /// slide. Where ground forces were measured, the path along the floor is that of the laboratory and stays.
+    /// slide. Where ground forces were measured, the path along the floor was measured in the laboratory and stays.
     pub(super) fn moved(self, model: &Model, mut motion: Motion, is_measured: bool) -> Motion {
         if self.height_m.is_none() {
             return motion;

@@ -18,7 +18,7 @@ use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use std::sync::Arc;
 
-/// A recording with everything that is known about it. It holds data; names of files appear in messages only.
+/// A recording with all statements about it. It contains data; names of files appear in messages only.
 #[derive(Debug, Clone)]
 pub struct Source {
     /// The recorded motion.
@@ -32,6 +32,8 @@ pub struct Source {
     /// Mass and stature that a given model is scaled to, if no standing trial scales it. The built-in body has its own
     /// ([`MarkerBody::BuiltIn`]).
     pub stated: StatedSize,
+    /// A movement of the same person that shows the hip centres and the knee axes of the built-in body.
+    pub movement: Option<Arc<LaboratoryFile>>,
 }
 
 /// The kinds of recording.
@@ -41,7 +43,7 @@ pub enum Recording {
     Coordinates {
         /// The body.
         model: Model,
-        /// Its coordinates over time.
+        /// Coordinates of the model over time.
         motion: Motion,
     },
     /// Markers in a laboratory.
@@ -101,12 +103,12 @@ pub struct CompleteMotion {
 /// Measured ground forces.
 #[derive(Debug, Clone, Default)]
 pub enum MeasuredForces {
-    /// Those of the force plates in a recording of markers, if it has any.
+    /// Forces of the force plates in a recording of markers, if it has any.
     #[default]
     InRecording,
     /// Forces on bodies of the model.
     OnBodies(Vec<ForceRecording>),
-    /// A table; its axes are those of the markers or of the world.
+    /// A table, in the axes of the markers or of the world.
     Table(ForceTable),
 }
 
@@ -165,20 +167,20 @@ pub enum MarkerBody {
 pub struct PlateAssignment {
     /// The plate, counted from 0 in the order of the file.
     pub plate: usize,
-    /// What is known of it.
+    /// Which foot is on it, or what is wrong with it.
     pub(crate) used: PlateUse,
 }
 
-/// What the laboratory knows of a force plate.
+/// Which foot is on a force plate, or what is wrong with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlateUse {
     /// One foot was on it.
     Foot(Side),
-    /// Nobody was; what it measured is left out.
+    /// No foot was on it; its recording is left out.
     Off,
     /// Its force along x (0) or y (1) has the wrong sign.
     Flip(usize),
-    /// What it measured is right when it is turned to the left, as seen from above, by these quarters.
+    /// Its recording must be turned to the left, as seen from above, by this many quarters.
     Turn(i32),
 }
 
@@ -203,6 +205,7 @@ impl Source {
             device: None,
             added_mass: Vec::new(),
             stated: StatedSize::default(),
+            movement: None,
         }
     }
 

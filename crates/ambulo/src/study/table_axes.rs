@@ -1,9 +1,11 @@
-//! Axes and units of a table of ground forces, recognised by what the body weighs.
+//! Axes and units of a table of ground forces, recognised from the body weight.
 //!
-//! The mean force of the ground points up, because it carries the weight and accelerates nobody for long: an axis with
-//! nine tenths of it is the vertical. If that is not y, the table has other axes; the direction about the vertical is
-//! the one with which the centres of pressure lie under the feet. The unit follows from the weight of a step
-//! ([`ForceUnit::of_steps`]), that of the moments from their lever: a foot is shorter than half a metre.
+//! The mean ground force points up, because the mean horizontal acceleration of a person is nearly zero: an axis with
+//! nine tenths of the mean force is the vertical. If this axis is not y, the table has other axes; the direction about
+//! the vertical is the one that puts the centres of pressure under the feet. The unit of the forces follows from the
+//! weight of a step ([`ForceUnit::of_steps`]), and the unit of the moments from their lever: a foot is shorter than half
+//! a metre.
+//!
 //! Pinned by: ambulo-cli/tests/plates.rs
 
 use crate::findings::{Code, Findings};
@@ -13,7 +15,7 @@ use crate::motion::force_plate::{ForceUnit, stepped_weight};
 use crate::numerics::{Shown, median};
 use crate::spatial::{Mat3, Vec3};
 
-/// Share of the mean force that points up where the axes are right: walking sums to nearly none forwards and sideways.
+/// Least share of the mean force along the vertical axis: over whole steps the horizontal forces nearly cancel.
 const UPRIGHT: f64 = 0.9;
 /// A person is on the ground if the sum of the forces exceeds half of its largest value in this share of the time; its
 /// mean is then the weight.
@@ -23,8 +25,8 @@ const LONGEST_LEVER_M: f64 = 0.5;
 /// Moments about the origin of the laboratory have a shorter lever than this [m].
 const LABORATORY_M: f64 = 60.0;
 
-/// Brings forces of a table to the axes of the world and to newtons and newton metres. Returns whether they are in body
-/// weights, so that they do not weigh the person.
+/// Converts the forces of a table to world axes, newtons and newton metres. Returns whether they were in body weights,
+/// from which no body mass follows.
 pub(super) fn in_world(
     forces: &mut [ForceRecording],
     world_from_lab: Option<&Mat3>,
@@ -44,15 +46,15 @@ pub(super) fn in_world(
 
 /// The vertical of a table whose y is not up.
 struct Vertical {
-    /// Of the table's axes.
+    /// Upward direction in the table's axes.
     up: Vec3,
     /// The axis of the load, with its sign.
     axis: usize,
     sign: f64,
 }
 
-/// Rotates forces from the axes of the markers, unless they are upright as they are. Returns the vertical if neither is
-/// right.
+/// Rotates forces from the axes of the markers to world axes, unless they are upright already. Returns the vertical axis
+/// of the table if both are wrong.
 fn turn_to_world(
     forces: &mut [ForceRecording],
     world_from_lab: Option<&Mat3>,
@@ -82,7 +84,7 @@ fn turn_to_world(
     None
 }
 
-/// Multiplies forces that weigh no person in newtons. Returns whether they are body weights.
+/// Converts forces that give no plausible body weight in newtons. Returns whether they were in body weights.
 fn to_newtons(forces: &mut [ForceRecording], up: Vec3, weight_n: f64, findings: &mut Findings) -> bool {
     let vertical = |force: &ForceRecording| force.force.iter().map(|f| f.dot(&up)).collect::<Vec<f64>>();
     let steps = forces.iter().filter_map(|force| stepped_weight(&force.times, &vertical(force)));
@@ -99,7 +101,7 @@ fn to_newtons(forces: &mut [ForceRecording], up: Vec3, weight_n: f64, findings: 
         }
     }
     let message = format!(
-        "the person weighs {} N by the forces of the table, and {weight_n:.0} N by the body mass: the table is in {}; \
+        "the body weight is {} N by the forces of the table and {weight_n:.0} N by the body mass: the table is in {}; \
          it was multiplied by {factor:.0}. hint: write newtons",
         Shown((1e4 * stepped).round() / 1e4),
         unit.name()
@@ -118,7 +120,7 @@ fn standing_weight(forces: &[ForceRecording], up: Vec3) -> Option<f64> {
     is_standing.then(|| loaded.iter().sum::<f64>() / loaded.len() as f64)
 }
 
-/// Divides moments that have the lever of no foot, and of no laboratory, by a thousand: they are in N.mm.
+/// Divides moments by 1000 if their lever is too long for a foot and for a laboratory: they are in N.mm.
 fn to_newton_metres(forces: &mut [ForceRecording], up: Vec3, findings: &mut Findings) {
     for force in forces {
         let lever_m = lever_m(force, up);
@@ -134,7 +136,7 @@ fn to_newton_metres(forces: &mut [ForceRecording], up: Vec3, findings: &mut Find
     }
 }
 
-/// Whether the moments have a lever of a foot, or of a laboratory if they are about its origin.
+/// Whether the lever of the moments is plausible for a foot, or for moments about the origin of the laboratory.
 fn has_lever_of_a_foot(force: &ForceRecording, up: Vec3) -> bool {
     let has_points = force.point.iter().any(|point| point.norm() > 0.0);
     lever_m(force, up) < if has_points { LONGEST_LEVER_M } else { LABORATORY_M }

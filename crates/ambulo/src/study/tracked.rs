@@ -6,7 +6,10 @@ use super::outcome::{PredictedGround, TrackedGround};
 use super::prediction::Found;
 use crate::analysis::{ComparedAnalyses, Progress, Stage, track};
 use crate::findings::{Code, Findings};
+use crate::kinematics::{Trajectory, each_body_motion};
+use crate::model::{BodyId, Model};
 use crate::optimal::TrackSettings;
+use crate::spatial::Vec3;
 
 /// Largest residual force at the root that is not reported [body weights, body weights × leg length].
 const SMALL_RESIDUAL: f64 = 0.005;
@@ -27,7 +30,9 @@ pub(super) fn tracked(
     };
     let Observation { model, person, .. } = observation;
     let PredictedGround { prediction, measured, coverage, .. } = &ground;
+    let recorded = hands(model, &analysis.trajectory);
     let (analysis, motion) = track(model, &analysis, prediction, &person.soles, &TrackSettings::default())?;
+    let moved_hands = recorded.iter().zip(hands(model, &analysis.trajectory)).map(|(a, b)| (a - b).norm());
     let compared = measured.as_ref().zip(coverage.as_ref()).and_then(|(measured, coverage)| {
         ComparedAnalyses { model, predicted: &analysis, prediction, measured }.agreement(coverage)
     });
@@ -35,6 +40,7 @@ pub(super) fn tracked(
         residual: motion.residual,
         moved: motion.moved,
         turned: motion.turned,
+        hands_m: moved_hands.reduce(f64::max),
         steps: motion.solution.progress.iter().map(|stage| stage.steps).sum(),
         predicted: ground.agreement.take(),
     };
@@ -42,6 +48,24 @@ pub(super) fn tracked(
     (ground.agreement, ground.tracked) = (compared, Some(tracked));
     progress.end(Stage::Tracking)?;
     Ok(Found { analysis, prediction: Some(ground), measured_events, loads, processing })
+}
+
+/// Mass centres of the last bodies of the arms in the axes of the trunk, in all frames [m].
+fn hands(model: &Model, trajectory: &Trajectory) -> Vec<Vec3> {
+    let Some(trunk) = model.anatomy().trunk() else { return Vec::new() };
+    let parent = |id: BodyId| model.bodies()[id.index()].joint.parent;
+    let is_on_trunk = |id: &BodyId| {
+        model.anatomy().body_side(*id).is_some()
+            && std::iter::successors(parent(*id), |id| parent(*id)).any(|id| id == trunk)
+    };
+    let is_last = |id: &BodyId| model.bodies().iter().all(|body| body.joint.parent != Some(*id));
+    let hands: Vec<BodyId> = model.body_ids().filter(is_last).filter(is_on_trunk).collect();
+    let mut places = Vec::new();
+    each_body_motion(model, trajectory, |_, bodies| {
+        let trunk = bodies[trunk.index()].pose.inverse();
+        places.extend(hands.iter().map(|id| trunk.place(bodies[id.index()].center)));
+    });
+    places
 }
 
 fn report(tracked: &TrackedGround, findings: &mut Findings) {

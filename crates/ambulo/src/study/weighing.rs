@@ -7,11 +7,11 @@
 //! ```
 //!
 //! The posture shows v whatever the mass is, because the segments keep their shares of it. The standard error of m is
-//! that of v(end) - v(start), multiplied by m / (g T). It is measured: with the best m the forces give the velocity at
-//! every instant, and its scatter about that of the motion is the error. Times T are whole cycles (strike to strike or
-//! off to off of one foot), steps from valley to valley of single supports, and any time during which every loaded foot
-//! is measured. Where only single stances were measured, each foot of a symmetric gait supplies half of the impulse of
-//! a stride. Pinned by: tests/weighing.rs
+//! the standard error of v(end) - v(start), multiplied by m / (g T). It is measured: with the best m the forces give
+//! the velocity at every instant; its scatter about the velocity of the motion is the error. Times T are whole cycles
+//! (strike to strike or off to off of one foot), steps from valley to valley of single supports, and any time during
+//! which every loaded foot is measured. Where only single stances were measured, each foot of a symmetric gait supplies
+//! half of the impulse of a stride. Pinned by: tests/weighing.rs
 
 use super::mass::{MassEstimate, MassWitness};
 use crate::analysis::BodyInMotion;
@@ -32,7 +32,7 @@ const PRIOR_S: f64 = 0.5;
 const SHORTEST_S: f64 = 0.3;
 /// An event of the motion nearer to one of the forces is the same event [s].
 const SAME_EVENT_S: f64 = 0.15;
-/// Events may be outside of a measured time by this, because those of the motion end it [s].
+/// Events may be outside of a measured time by this, because events of the motion end it [s].
 const EDGE_S: f64 = 0.02;
 /// Difference of the impulses of the two feet of a healthy walker over their mean, standard deviation, as a share.
 /// Herzog, Nigg, Read, Olsson 1989, Med Sci Sports Exerc 21:110-114 found vertical forces within 4 % (unverified).
@@ -55,7 +55,7 @@ pub(super) struct Carried<'a> {
     windows: Vec<[f64; 2]>,
     /// Foot strikes and foot offs, from forces where there are some.
     events: Vec<Event>,
-    /// Those of the forces alone.
+    /// Foot strikes and foot offs from forces alone.
     force_events: Vec<Event>,
     /// Stances that were measured from strike to off [s].
     stances: BySide<Vec<[f64; 2]>>,
@@ -71,7 +71,7 @@ struct Weighed {
 }
 
 impl<'a> Carried<'a> {
-    /// `body`: the body that followed markers, which knows the feet on plates; without plates the motion shows which
+    /// `body`: the body that followed markers, which has the feet on plates; without plates the motion shows which
     /// stances the forces lack.
     pub(super) fn new(
         model: &Model,
@@ -135,7 +135,7 @@ impl<'a> Carried<'a> {
         all.flatten().collect()
     }
 
-    /// The recorded time without the stances that the motion shows and no force carries.
+    /// The recorded time without stances that were detected in the motion and have no measured force.
     fn windows_by_load(&self, recorded: [f64; 2], seen: &BySide<Vec<[f64; 2]>>) -> Vec<[f64; 2]> {
         let mut free = if recorded[1] > recorded[0] { vec![recorded] } else { Vec::new() };
         for (side, stances) in seen.iter() {

@@ -16,9 +16,16 @@ pub(super) fn plate_silent(trial: &mut Trial) -> Option<()> {
         channels.map(|channel| spread(&channel.samples)).fold(0.0, f64::max)
     };
     let platforms = trial.moving.platforms().ok()?;
-    let plate = platforms.into_iter().max_by(|a, b| largest(a).total_cmp(&largest(b)))?;
-    for index in plate.channels.into_iter().flatten() {
-        let samples = &mut trial.moving.channels.get_mut(index)?.samples;
+    let loads = platforms.iter().map(largest).enumerate();
+    let (plate, _) = loads.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    silence(&mut trial.moving, plate)
+}
+
+/// A plate shows what it showed in the first sample.
+pub(super) fn silence(file: &mut C3d, plate: usize) -> Option<()> {
+    let channels = file.platforms().ok()?.into_iter().nth(plate)?.channels;
+    for index in channels.into_iter().flatten() {
+        let samples = &mut file.channels.get_mut(index)?.samples;
         let first = *samples.first()?;
         samples.fill(first);
     }

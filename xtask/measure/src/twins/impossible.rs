@@ -21,6 +21,7 @@ use ambulo::job::{FileError, Job};
 use ambulo::model::{Displacement, JointAxis, Movement, Side};
 use ambulo::motion::{ForceRecording, Motion};
 use ambulo::spatial::Vec3;
+use ambulo::study::validation::TextTable;
 use ambulo::study::{self, ForceFilter, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::table::Table;
 use std::fs;
@@ -58,17 +59,26 @@ impl Change {
 /// A recording with its name; an error if it cannot be read.
 type Named = (String, Result<Source, String>);
 
-/// Runs all recordings and their twins and prints the shares.
-#[expect(clippy::print_stdout, reason = "the answer of the command")]
-pub(super) fn run(data: &Path, only: &str) -> Result<(), String> {
+/// What was found.
+pub(super) struct Impossible {
+    /// Recordings and twins that are not judged as they should be, a line each.
+    pub(super) remarks: Vec<String>,
+    /// How many recordings were judged how, in a sentence.
+    pub(super) recordings: String,
+    pub(super) table: TextTable,
+}
+
+/// Judges all recordings whose name contains a text, and their twins.
+pub(super) fn judged(data: &Path, only: &str) -> Result<Impossible, String> {
     let mut counts = [[0; 2]; Change::ALL.len()];
     let (mut feasible, mut infeasible, mut others) = (0, 0, 0);
+    let mut remarks = Vec::new();
     for (name, source) in sources(data)?.into_iter().filter(|(name, _)| name.contains(only)) {
         let outcome = match source.and_then(|source| analysed(&source, &Settings::default())) {
             Ok(outcome) => outcome,
             Err(why) => {
                 others += 1;
-                println!("{name}: refused: {why}");
+                remarks.push(format!("{name}: refused: {why}"));
                 continue;
             }
         };
@@ -76,12 +86,12 @@ pub(super) fn run(data: &Path, only: &str) -> Result<(), String> {
             VerdictState::Feasible => feasible += 1,
             VerdictState::Infeasible => {
                 infeasible += 1;
-                println!("{name}: infeasible, falsely: {}", reasons(&outcome.verdict));
+                remarks.push(format!("{name}: infeasible, falsely: {}", reasons(&outcome.verdict)));
                 continue;
             }
             VerdictState::NotJudged => {
                 others += 1;
-                println!("{name}: not judged: {}", outcome.verdict.undecided.join("; "));
+                remarks.push(format!("{name}: not judged: {}", outcome.verdict.undecided.join("; ")));
                 continue;
             }
         }
@@ -94,15 +104,23 @@ pub(super) fn run(data: &Path, only: &str) -> Result<(), String> {
             count[0] += usize::from(is_found);
             count[1] += 1;
             if !is_found {
-                println!("{name}, {}: {}, {}", change.name(), verdict.state.words(), verdict.undecided.join("; "));
+                remarks.push(format!(
+                    "{name}, {}: {}, {}",
+                    change.name(),
+                    verdict.state.words(),
+                    verdict.undecided.join("; ")
+                ));
             }
         }
     }
-    println!("recordings of people: {feasible} feasible, {infeasible} infeasible, {others} refused or not judged");
+    let recordings = format!(
+        "{feasible} recordings of people are feasible, {infeasible} infeasible, {others} refused or not judged."
+    );
+    let mut table = TextTable::new(&["twin", "infeasible", "of"]);
     for (change, [found, made]) in Change::ALL.into_iter().zip(counts) {
-        println!("{}: {found} of {made} twins are infeasible", change.name());
+        table.row([change.name().to_owned(), found.to_string(), made.to_string()]);
     }
-    Ok(())
+    Ok(Impossible { remarks, recordings, table })
 }
 
 fn analysed(source: &Source, settings: &Settings) -> Result<Outcome, String> {

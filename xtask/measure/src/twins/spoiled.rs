@@ -4,6 +4,7 @@
 //! file. It is named if one of the codes that belong to the fault is among its findings. The same codes must not appear
 //! in the clean recordings.
 
+use super::Chosen;
 use super::changes::{
     clock, corners, delayed, exchanged, frozen, held, left_handed, mirrored_force, moved, other_stands, pair,
     plate_silent, scaled, two_people, without,
@@ -11,6 +12,7 @@ use super::changes::{
 use super::clean::{Files, is_tested, people};
 use ambulo::findings::Findings;
 use ambulo::job::{FileError, Job};
+use ambulo::study::validation::TextTable;
 use ambulo::study::{self, Outcome};
 use ambulo_formats::c3d::{C3d, Storage};
 use std::collections::{BTreeMap, BTreeSet};
@@ -99,57 +101,80 @@ const KNEES: &[&str] = &["RKNE", "R_FLE"];
 const ANKLES: &[&str] = &["RANK", "R_FAL"];
 const HEELS: &[&str] = &["RHEE", "R_FCC", "RHEEL"];
 
-/// Spoils every clean recording in every way, and prints how many are named. Fails if too few are, or too many clean
-/// ones.
-#[expect(clippy::print_stdout, reason = "the answer of the command")]
-pub(super) fn run(data: &Path, only: &str) -> Result<(), String> {
+/// How many twins of each fault are named.
+pub(super) struct Spoiled {
+    pub(super) table: TextTable,
+    /// Number of clean recordings.
+    pub(super) clean: usize,
+    /// Faults of which too few twins are named, or that too many clean recordings show.
+    pub(super) failures: Vec<&'static str>,
+}
+
+/// Spoils the first clean recording of each person in every way that is chosen, and counts how many are named.
+pub(super) fn judged(data: &Path, chosen: &Chosen<'_>) -> Result<Spoiled, String> {
+    let is_chosen = |files: &Files| name(&files.trial).contains(chosen.recording);
     let recordings: Vec<Files> = people(data).into_iter().filter_map(|trials| trials.into_iter().next()).collect();
     if let Some(code) = FAULTS.iter().flat_map(|fault| fault.codes).find(|code| !is_tested(code) && !code.contains(' '))
     {
         return Err(format!("{code} is missing in the list of the clean recordings"));
     }
-    let clean = codes_of_clean(data)?;
-    println!("{:30} {:>6} {:>3} {:>6}  unnamed", "fault", "named", "of", "clean");
-    let mut failures = Vec::new();
-    for fault in FAULTS.iter().filter(|fault| fault.name.contains(only)) {
-        let (named, made, unnamed) = judged(fault, &recordings)?;
+    let clean = codes_of_clean(data, is_chosen)?;
+    let mut found = Spoiled {
+        table: TextTable::new(&["fault", "named", "of", "clean", "not named"]),
+        clean: clean.len(),
+        failures: Vec::new(),
+    };
+    for fault in FAULTS.iter().filter(|fault| fault.name.contains(chosen.fault)) {
+        let Twins { named, made, unnamed } = Twins::of(fault, &recordings, is_chosen)?;
         let is_false = |codes: &&BTreeSet<&str>| fault.codes.iter().any(|code| codes.contains(code));
         let falsely = clean.values().filter(is_false).count();
-        println!("{:30} {named:>6} {made:>3} {falsely:>6}  {}", fault.name, unnamed.join(" "));
+        let counts = [named, made, falsely].map(|count| count.to_string());
+        found.table.row([fault.name.to_owned()].into_iter().chain(counts).chain([unnamed.join(" ")]));
         if (named as f64) < LEAST_NAMED * made as f64 || falsely as f64 > MOST_FALSE * clean.len() as f64 {
-            failures.push(fault.name);
+            found.failures.push(fault.name);
         }
     }
-    println!("clean recordings: {}", clean.len());
-    if failures.is_empty() { Ok(()) } else { Err(format!("not named often enough: {}", failures.join(", "))) }
+    Ok(found)
 }
 
-/// Twins that are named, twins that were made, and the recordings whose twins are not named.
-fn judged(fault: &Fault, recordings: &[Files]) -> Result<(usize, usize, Vec<String>), String> {
-    let (mut named, mut made, mut unnamed) = (0, 0, Vec::new());
-    for (index, files) in recordings.iter().enumerate() {
-        let mut trial = Trial::read(files, &recordings[(index + 1) % recordings.len()])?;
-        if (fault.spoil)(&mut trial).is_none() {
-            continue;
+/// Twins of a fault.
+struct Twins {
+    named: usize,
+    made: usize,
+    /// The recordings whose twins are not named.
+    unnamed: Vec<String>,
+}
+
+impl Twins {
+    fn of(fault: &Fault, recordings: &[Files], is_chosen: impl Fn(&Files) -> bool) -> Result<Twins, String> {
+        let mut twins = Twins { named: 0, made: 0, unnamed: Vec::new() };
+        for (index, files) in recordings.iter().enumerate().filter(|(_, files)| is_chosen(files)) {
+            let mut trial = Trial::read(files, &recordings[(index + 1) % recordings.len()])?;
+            if (fault.spoil)(&mut trial).is_none() {
+                continue;
+            }
+            twins.made += 1;
+            let (found, outcome) = trial.codes();
+            let refusal = outcome.err().unwrap_or_default();
+            match fault.codes.iter().any(|code| found.contains(code) || refusal.contains(code)) {
+                true => twins.named += 1,
+                false => twins.unnamed.push(name(&files.trial)),
+            }
         }
-        made += 1;
-        let (found, outcome) = trial.codes();
-        let refusal = outcome.err().unwrap_or_default();
-        match fault.codes.iter().any(|code| found.contains(code) || refusal.contains(code)) {
-            true => named += 1,
-            false => unnamed.push(name(&files.trial)),
-        }
+        Ok(twins)
     }
-    Ok((named, made, unnamed))
 }
 
-fn name(path: &Path) -> String {
+pub(super) fn name(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// The codes of each clean recording.
-fn codes_of_clean(data: &Path) -> Result<BTreeMap<String, BTreeSet<&'static str>>, String> {
-    let all = people(data).into_iter().flatten();
+fn codes_of_clean(
+    data: &Path,
+    is_chosen: impl Fn(&Files) -> bool,
+) -> Result<BTreeMap<String, BTreeSet<&'static str>>, String> {
+    let all = people(data).into_iter().flatten().filter(is_chosen);
     all.map(|files| {
         let (codes, outcome) = Trial::read(&files, &files)?.codes();
         outcome.map_err(|why| format!("{}: {why}", files.trial.display()))?;
@@ -159,7 +184,7 @@ fn codes_of_clean(data: &Path) -> Result<BTreeMap<String, BTreeSet<&'static str>
 }
 
 impl Trial {
-    fn read(files: &Files, other: &Files) -> Result<Trial, String> {
+    pub(super) fn read(files: &Files, other: &Files) -> Result<Trial, String> {
         let both = |files: &Files| -> Result<Pair, String> {
             Ok(Pair { standing: files.standing.as_deref().map(c3d).transpose()?, moving: c3d(&files.trial)? })
         };
@@ -174,7 +199,7 @@ impl Trial {
         (findings.as_slice().iter().map(|finding| finding.code.name()).collect(), outcome)
     }
 
-    fn computed(&self, findings: &mut Findings) -> Result<Outcome, String> {
+    pub(super) fn computed(&self, findings: &mut Findings) -> Result<Outcome, String> {
         let moving = self.moving.write().map_err(|e| e.to_string())?;
         let standing = self.standing.as_ref().map(C3d::write).transpose().map_err(|e| e.to_string())?;
         let mut files = |path: &Path| match path.to_str() {

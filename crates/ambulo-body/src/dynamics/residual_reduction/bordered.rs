@@ -3,7 +3,7 @@
 //!   [A  B ] [x]   [r]        Z = A⁻¹ B,   (D - Bᵀ Z) y = s - Zᵀ r,   x = A⁻¹ r - Z y
 //!   [Bᵀ D ] [y] = [s]
 //!
-//! Cost: that of [`BandMatrix`], and one solution per column of the border.
+//! Cost: the cost of [`BandMatrix`], plus one solution per column of the border.
 
 use crate::numerics::BandMatrix;
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -24,7 +24,8 @@ pub struct BorderedSystem {
 }
 
 impl BorderedSystem {
-    /// No terms yet: so many unknowns in the band, half the width of the band, and so many unknowns in the border.
+    /// A system without terms. Arguments: number of unknowns in the band, half the width of the band, number of
+    /// unknowns in the border.
     pub fn zeros(size: usize, bands: usize, border: usize) -> BorderedSystem {
         BorderedSystem {
             band: BandMatrix::zeros(size, bands),

@@ -19,9 +19,9 @@ pub(super) struct FootPose {
 /// Derivatives of what [`FrameEvaluator::evaluate`] gives by the free coordinates.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FrameSlopes {
-    /// Of the residual force and moment: by value, rate and acceleration, one entry per coordinate.
+    /// Derivatives of the residual force and moment by value, rate and acceleration, one entry per coordinate.
     pub(super) root: [Vec<[f64; 6]>; 3],
-    /// Of each foot's displacement and rotation vector by value, one entry per coordinate.
+    /// Derivatives of each foot's displacement and rotation vector by value, one entry per coordinate.
     pub(super) feet: Vec<Vec<[f64; 6]>>,
 }
 

@@ -6,7 +6,7 @@
 //!
 //!   Σ_window |F_root(q + δ)|² / σ_F² + |M_root(q + δ)|² / σ_M²                       Newton's and Euler's laws
 //!   + Σ_frames Σ_c (δ_c / σ_c)² + (δ̈_c / (σ_c ω²))²                                  noise of the motion
-//!   + Σ_frames Σ_feet |Δp|² / σ_p² + |Δθ|² / σ_θ²                                    feet stay where they were recorded
+//!   + Σ_frames Σ_feet |Δp|² / σ_p² + |Δθ|² / σ_θ²                                   feet stay where they were recorded
 //!
 //! by the Gauss-Newton method. Loads keep their place in the world. The body mass and the trunk's mass centre may be
 //! unknowns too: if they are wrong, a constant force or moment remains, which no motion of a walking person can

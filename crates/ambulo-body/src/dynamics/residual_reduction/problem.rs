@@ -77,7 +77,7 @@ impl ReductionProblem<'_> {
         [-most - at, most - at]
     }
 
-    /// Weight of a parameter of the body. Errors of a motion hardly vary along a trial (skin, marker placement,
+    /// Weight of a parameter of the body. Errors of a motion vary little along a trial (skin, marker placement,
     /// lengths), and a wrong parameter acts in every frame: it costs as much as a constant offset of a coordinate
     /// throughout the window.
     fn trust(&self, number: usize) -> f64 {
@@ -294,7 +294,7 @@ impl FrameEquations {
         }
     }
 
-    /// Adds these equations to those of the motion, where the unknowns of this frame begin at `first`.
+    /// Adds these equations to the equations of the motion, where the unknowns of this frame begin at `first`.
     fn spread(&self, first: usize, equations: &mut BorderedSystem) {
         let whole = self.size + self.numbers;
         for i in 0..self.size {

@@ -91,7 +91,7 @@ impl ReducedMotion {
 }
 
 impl RootResidual {
-    /// From the residual wrenches at the root and the body weight [N].
+    /// Computes the summary from the residual wrenches at the root and the body weight [N].
     pub(super) fn of(wrenches: &[Wrench], weight: f64) -> RootResidual {
         let [force, moment] = [0, 1].map(|k| {
             let lengths = wrenches.iter().map(|w| if k == 0 { w.force.norm() } else { w.moment.norm() });
@@ -107,7 +107,7 @@ impl RootResidual {
 }
 
 impl CoordinateChange {
-    /// From the values of a coordinate before and after.
+    /// Computes the change of a coordinate from its values before and after.
     pub(super) fn of(
         model: &Model,
         coordinate: usize,

@@ -16,7 +16,7 @@ pub struct ResidualReductionSettings {
     pub tolerance_m: f64,
     /// Noise of the mass centre of a body that carries a load [m]. It is small because feet are tracked well.
     pub tolerance_foot_m: f64,
-    /// Bandwidth f of the noise [Hz]: the noise of an acceleration is that of the value times (2π f)², so faster
+    /// Bandwidth f of the noise [Hz]: the noise of an acceleration is (2π f)² times the noise of the value, so faster
     /// corrections cost more.
     pub bandwidth_hz: f64,
     /// Residual force that may remain at the root [body weights]: the accuracy of force plates.

@@ -8,12 +8,13 @@
 //! | part | method |
 //! |---|---|
 //! | pelvis | axes through the iliac spines, rotated back by the pelvic tilt of upright standing |
-//! | hip centre | regression of Harrington 2007 on width and depth of the pelvis between its markers |
+//! | hip centre | a regression on the size of the pelvis or the legs (`hip_centre`), or as a movement showed it |
 //! | knee | midway between the epicondyles; otherwise half the knee width inside the lateral marker, perpendicular to the line to the hip, in the plane of the wand (construction of Plug-in-Gait); without a wand, in the frontal plane of the pelvis |
 //! | ankle | the same with the malleoli and the wand of the shank; without one, in the plane of the knee axis |
 //! | thigh, shank | y from the lower to the upper joint, z along the part of the knee axis that is perpendicular to y |
 //! | foot | upright while flat on the ground; x from heel to toe |
 //! | trunk | usual positions of the landmarks fitted to the visible ones, then y from the lumbar joint to the shoulders |
+//! | head, hands | a joint at the base of the neck and at the wrist, if enough markers show them (`moving_parts`); zero in standing |
 //! | arm | elbow half its width inside the lateral marker, along the normal of the plane of shoulder, elbow and wrist |
 //!
 //! The hinge of the knee rotates about z of the thigh; the other rotation of the shank (varus) is a constant part of
@@ -23,18 +24,20 @@
 //! On a walk the marker positions are then refined with the joints by least squares (`refinement`): a knee that only
 //! flexes shows the direction of its axis, independent of wand and epicondyle.
 //!
-//! Sources: Harrington, Zavatsky, Lawson, Yuan, Theologis 2007, J Biomech 40:595 (unverified except the numbers);
+//! Sources: hip centres: `hip_centre`;
 //! Kadaba 1990 and Davis 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing
 //! pelvis: see [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
-//! Not handled: functional joint centres; wrists and heads that move; braces.
+//! Not handled: shoulder girdles that move; braces.
 //! Pinned by: tests/calibration.rs
 
 mod assembly;
 pub(crate) mod axes;
 mod error;
 mod feet;
+mod hip_centre;
 mod landmark_trajectories;
 pub(crate) mod legs;
+mod moving_parts;
 mod pelvis;
 mod person;
 mod reference;
@@ -45,17 +48,18 @@ mod upright;
 
 pub use axes::angles_zxy;
 pub use error::CalibrationError;
+pub use hip_centre::HipRegression;
 pub(in crate::kinematics) use legs::stature;
 #[doc(hidden)]
 pub use pelvis::hip_centres;
-pub use person::{BodyMeasurements, PersonMeasurements};
+pub use person::{BodyMeasurements, JointCentres, KneeAxis, PersonMeasurements};
 pub use reference::Trial;
-pub use report::{CalibrationReport, MarkerPlacement, SegmentScale};
+pub use report::{CalibrationReport, HipCentres, MarkerPlacement, SegmentScale};
 pub use upright::assume_upright_trunk;
 
 use crate::findings::{Code, Findings};
-use crate::model::anthropometry::{Build, Human};
-use crate::model::full_body::full_body;
+use crate::model::anthropometry::{Build, Human, MovingParts};
+use crate::model::full_body::{full_body, full_body_with};
 use crate::model::marker_set::RecognisedMarkers;
 use crate::motion::MarkerRecording;
 use landmark_trajectories::LandmarkTrajectories;
@@ -119,7 +123,7 @@ pub fn calibrate(
     let trajectories = LandmarkTrajectories::new(recording, recognised);
     let frames = reference::frames(&trajectories, trial, findings);
     let mut assumptions = Vec::new();
-    let pelvis = pelvis::find(&trajectories, &frames)?;
+    let pelvis = pelvis::find(&trajectories, &frames, person, &mut assumptions)?;
     let legs = legs::find(&trajectories, &frames, &pelvis, person, &mut assumptions)?;
     let height = match person.height {
         Some(height) => height,
@@ -133,7 +137,9 @@ pub fn calibrate(
     let observed = feet::Observed { trial, keypoints: pelvis.is_line };
     let feet = feet::find(&trajectories, &frames, observed, &legs, &generic.dimensions, &mut assumptions);
     let trunk = trunk::find(&trajectories, &frames, &pelvis, &generic.dimensions, person, &mut assumptions);
-    let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk };
+    let moving = moving_parts::shown(&trajectories, &pelvis, &trunk);
+    let generic = if moving == MovingParts::default() { generic } else { full_body_with(&build, &moving)? };
+    let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk, moving };
     let mut calibrated = assembly::assemble(&trajectories, &frames, &generic, &parts, assumptions)?;
     // Points of video are joint centres, which have their places.
     if trial == Trial::Moving && !pelvis.is_line {

@@ -2,10 +2,13 @@
 
 use super::CalibrationError;
 use super::axes::{about_z, direction, from_z_x, from_z_y};
+use super::hip_centre::{HipRegression, PelvisSize};
 use super::landmark_trajectories::LandmarkTrajectories;
-use crate::model::Side;
+use super::person::PersonMeasurements;
+use super::report::HipCentres;
 use crate::model::full_body::STANDING_TILT;
 use crate::model::marker_set::Landmark;
+use crate::model::{BySide, Side};
 use crate::numerics::median;
 use crate::spatial::{Pose, Vec3};
 
@@ -19,17 +22,28 @@ const HIP_WIDTHS: [f64; 2] = [0.05, 0.35];
 pub(super) struct Pelvis {
     /// Pose of the body frame, one per selected frame: origin midway between the hips, upright in standing.
     pub(super) poses: Vec<Option<Pose>>,
-    /// Distance between the hip centres [m].
-    pub(super) hip_width: f64,
+    /// From midway between the hips to the right hip centre, in the body frame [m].
+    half: Vec3,
     /// Whether only the hip centres are known, so that the tilt is not.
     pub(super) is_line: bool,
+    /// How the hip centres were found.
+    pub(super) hips: HipCentres,
 }
 
 impl Pelvis {
+    /// Distance between the hip centres [m].
+    pub(super) fn hip_width(&self) -> f64 {
+        2.0 * self.half.norm()
+    }
+
+    /// A hip centre in the body frame [m].
+    pub(super) fn hip_in_body(&self, side: Side) -> Vec3 {
+        self.half * if side == Side::Right { 1.0 } else { -1.0 }
+    }
+
     /// A hip centre in a selected frame [m].
     pub(super) fn hip(&self, measured: usize, side: Side) -> Option<Vec3> {
-        let out = if side == Side::Right { 0.5 } else { -0.5 };
-        Some(self.poses.get(measured)?.as_ref()?.place(Vec3::z() * (out * self.hip_width)))
+        Some(self.poses.get(measured)?.as_ref()?.place(self.hip_in_body(side)))
     }
 
     /// Direction to the right in a selected frame.
@@ -38,11 +52,16 @@ impl Pelvis {
     }
 }
 
-pub(super) fn find(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Result<Pelvis, CalibrationError> {
+pub(super) fn find(
+    trajectories: &LandmarkTrajectories<'_>,
+    frames: &[usize],
+    person: &PersonMeasurements,
+    assumptions: &mut Vec<String>,
+) -> Result<Pelvis, CalibrationError> {
     let both = |landmark: Landmark| Side::BOTH.into_iter().all(|side| trajectories.has(landmark, Some(side)));
     let has_back = both(Landmark::Psis) || trajectories.has(Landmark::Sacrum, None);
     let pelvis = if both(Landmark::Asis) && has_back {
-        from_spines(trajectories, frames)
+        from_spines(trajectories, frames, person, assumptions)
     } else if both(Landmark::HipCentre) {
         from_hips(trajectories, frames)
     } else {
@@ -58,10 +77,10 @@ pub(super) fn find(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) ->
         return Err(CalibrationError::Unseen { part: "pelvis".to_owned(), seen, frames: frames.len(), expected });
     }
     let [least_m, most_m] = HIP_WIDTHS;
-    if !(least_m..=most_m).contains(&pelvis.hip_width) {
+    if !(least_m..=most_m).contains(&pelvis.hip_width()) {
         return Err(CalibrationError::Length {
             part: "line between the hip centres".to_owned(),
-            found_m: pelvis.hip_width,
+            found_m: pelvis.hip_width(),
             least_m,
             most_m,
             hint: "check the unit of length, and whether left and right markers are swapped",
@@ -83,34 +102,102 @@ fn spines(trajectories: &LandmarkTrajectories<'_>, frame: usize) -> Option<(Vec3
     Some(((right + left) * 0.5, back, right - left))
 }
 
-/// Hip centre by Harrington 2007 from width and depth of the pelvis between the markers [m], relative to the point
-/// midway between the anterior spines, in axes through the spines.
-fn regression(width: f64, depth: f64) -> Vec3 {
-    Vec3::new(-0.24 * depth - 0.0099, -0.30 * width - 0.0109, 0.33 * width + 0.0073)
-}
-
-/// Right and left hip centre [m], from the anterior spines, right first, and the back of the pelvis in the same axes.
+/// Right and left hip centre by Harrington's regression [m], from the anterior spines, right first, and the back of the
+/// pelvis in the same axes.
 #[must_use]
 pub fn hip_centres([right, left]: [Vec3; 2], back: Vec3) -> Option<[Vec3; 2]> {
     let (front, across) = ((right + left) * 0.5, right - left);
     let rotation = from_z_x(across, front - back)?;
-    let hip = regression(across.norm(), (front - back).norm());
-    Some([1.0, -1.0].map(|out| front + rotation * Vec3::new(hip.x, hip.y, out * hip.z)))
+    let (width, depth) = (across.norm(), (front - back).norm());
+    let unused = BySide::from([f64::NAN; 2]);
+    let size = PelvisSize { width, depth, legs: unused, trochanters: BySide::default(), radius: 0.0 };
+    Some(Side::BOTH.map(|side| front + rotation * HipRegression::Harrington.centre(&size, side)))
 }
 
-fn from_spines(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvis {
+/// Length of each leg from the anterior spine over knee and ankle [m]: as stated, or between the markers; that of the
+/// other leg if one lacks them. NaN if no leg has them.
+fn leg_lengths(
+    trajectories: &LandmarkTrajectories<'_>,
+    frames: &[usize],
+    person: &PersonMeasurements,
+    assumptions: &mut Vec<String>,
+) -> BySide<f64> {
+    let measured = |side: Side| {
+        let one = |places: [Landmark; 2], frame| places.iter().find_map(|place| trajectories.of(*place, side, frame));
+        median(frames.iter().filter_map(|&frame| {
+            let spine = trajectories.of(Landmark::Asis, side, frame)?;
+            let knee = one([Landmark::LateralEpicondyle, Landmark::KneeCentre], frame)?;
+            let medial = trajectories.of(Landmark::MedialMalleolus, side, frame);
+            let ankle = medial.or_else(|| one([Landmark::LateralMalleolus, Landmark::AnkleCentre], frame))?;
+            Some((spine - knee).norm() + (knee - ankle).norm())
+        }))
+    };
+    let stated = person.measurements.leg_length;
+    if Side::BOTH.into_iter().any(|side| stated[side].is_none()) {
+        assumptions.push("the length of a leg is not stated; it is that over spine, knee and ankle markers".to_owned());
+    }
+    let own = BySide::from_fn(|side| stated[side].or_else(|| measured(side)));
+    let any = own.right.or(own.left).unwrap_or(f64::NAN);
+    own.map(|length| length.unwrap_or(any))
+}
+
+/// Hip centres from midway between the anterior spines, in axes through the spines: those of a movement, or by the
+/// regression. A hip whose movement was not measured mirrors the other.
+fn centres(
+    regression: HipRegression,
+    size: &PelvisSize,
+    person: &PersonMeasurements,
+    assumptions: &mut Vec<String>,
+) -> HipCentres {
+    let moved = person.measurements.joints.hips;
+    let mirrored = |centre: Vec3| Vec3::new(centre.x, centre.y, -centre.z);
+    if let (Some(one), None) | (None, Some(one)) = (moved.right, moved.left) {
+        assumptions.push(format!(
+            "the movement shows the centre of one hip; the other is its mirror image, {:.0} mm outwards",
+            1e3 * one.z.abs()
+        ));
+    }
+    let functional = moved.right.or_else(|| moved.left.map(mirrored));
+    let Some(right) = functional else {
+        return HipCentres {
+            method: regression.word(),
+            expected_error_m: Some(regression.expected_error_m()),
+            centres_m: BySide::from_fn(|side| regression.centre(size, side)),
+        };
+    };
+    let centres_m = BySide { right, left: moved.left.unwrap_or_else(|| mirrored(right)) };
+    HipCentres { method: HipCentres::FUNCTIONAL, expected_error_m: Some(HipCentres::FUNCTIONAL_ERROR_M), centres_m }
+}
+
+fn from_spines(
+    trajectories: &LandmarkTrajectories<'_>,
+    frames: &[usize],
+    person: &PersonMeasurements,
+    assumptions: &mut Vec<String>,
+) -> Pelvis {
     let seen: Vec<_> = frames.iter().map(|&frame| spines(trajectories, frame)).collect();
     let known = || seen.iter().flatten();
-    let width = median(known().map(|(_, _, across)| across.norm())).unwrap_or(f64::NAN);
-    let depth = median(known().map(|(front, back, _)| (front - back).norm())).unwrap_or(f64::NAN);
-    let hip = regression(width, depth);
-    let origin = Vec3::new(hip.x, hip.y, 0.0);
+    let regression = person.measurements.joints.hip;
+    let size = PelvisSize {
+        width: median(known().map(|(_, _, across)| across.norm())).unwrap_or(f64::NAN),
+        depth: median(known().map(|(front, back, _)| (front - back).norm())).unwrap_or(f64::NAN),
+        legs: match regression.uses_legs() {
+            true => leg_lengths(trajectories, frames, person, assumptions),
+            false => BySide::from([f64::NAN; 2]),
+        },
+        trochanters: person.measurements.asis_trochanter,
+        radius: person.measurements.radius(),
+    };
+    let hips = centres(regression, &size, person, assumptions);
+    let BySide { right, left } = hips.centres_m;
+    let origin = (right + left) * 0.5;
     let pose = |(front, back, across): &(Vec3, Vec3, Vec3)| {
         let rotation = from_z_x(*across, front - back)?;
         Some(Pose { rotation: rotation * about_z(STANDING_TILT), translation: front + rotation * origin })
     };
     let poses = seen.iter().map(|spines| spines.as_ref().and_then(pose)).collect();
-    Pelvis { poses, hip_width: 2.0 * hip.z, is_line: false }
+    let half = about_z(STANDING_TILT).transpose() * ((right - left) * 0.5);
+    Pelvis { poses, half, is_line: false, hips }
 }
 
 /// From hip centres of video: the line between the hips, and the line from hips to shoulders for the tilt. Where no
@@ -129,5 +216,8 @@ fn from_hips(trajectories: &LandmarkTrajectories<'_>, frames: &[usize]) -> Pelvi
         Some(Pose { rotation: from_z_y(direction(right - left)?, up)?, translation: middle })
     };
     let poses = seen.iter().zip(frames).map(pose).collect();
-    Pelvis { poses, hip_width, is_line: true }
+    let half = Vec3::z() * (0.5 * hip_width);
+    let hips =
+        HipCentres { method: HipCentres::RECORDED, expected_error_m: None, centres_m: BySide::from([half, -half]) };
+    Pelvis { poses, half, is_line: true, hips }
 }

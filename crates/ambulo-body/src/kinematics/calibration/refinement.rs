@@ -31,7 +31,7 @@ const PRIOR: f64 = 6.0;
 
 /// Moves the markers of a body to their positions in the walk.
 pub(super) fn refine(body: &mut Calibrated, recording: &MarkerRecording) -> Result<(), BuildError> {
-    let sample = sample(recording);
+    let sample = recording.sample(FRAMES);
     let first: Vec<Vec3> = body.human.model.markers().iter().map(|m| m.location).collect();
     for _ in 0..ROUNDS {
         let Some(fit) = fitted(body, &sample) else { return Ok(()) };
@@ -59,21 +59,6 @@ pub(super) fn refine(body: &mut Calibrated, recording: &MarkerRecording) -> Resu
 fn fitted(body: &Calibrated, sample: &MarkerRecording) -> Option<MarkerFit> {
     let settings = FitSettings { weights: body.weights.clone(), ..FitSettings::default() };
     fit_markers(&body.human.model, sample, &settings, &mut Findings::default()).ok()
-}
-
-/// Selects frames spread over a recording.
-fn sample(recording: &MarkerRecording) -> MarkerRecording {
-    let step = recording.frames().div_ceil(FRAMES).max(1);
-    let path = |path: &MarkerPath| MarkerPath {
-        name: path.name.clone(),
-        positions: path.positions.iter().copied().step_by(step).collect(),
-    };
-    MarkerRecording {
-        name: recording.name.clone(),
-        rate_hz: recording.rate_hz / step as f64,
-        times: recording.times.iter().copied().step_by(step).collect(),
-        markers: recording.markers.iter().map(path).collect(),
-    }
 }
 
 /// Mean of the marker positions on the fitted body and the initial positions.

@@ -1,5 +1,8 @@
 //! Report of a calibration.
 
+use crate::model::BySide;
+use crate::spatial::Vec3;
+
 /// Results and assumptions of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationReport {
@@ -9,6 +12,8 @@ pub struct CalibrationReport {
     pub height_m: f64,
     /// Distance between the hip centres [m].
     pub hip_width_m: f64,
+    /// How the hip centres were found, and where they are.
+    pub hips: HipCentres,
     /// Scale factors of the bodies, in the order of the model.
     pub segments: Vec<SegmentScale>,
     /// Errors of the markers, in the order of the model.
@@ -17,6 +22,27 @@ pub struct CalibrationReport {
     pub assumptions: Vec<String>,
     /// Number of frames used.
     pub frames: usize,
+}
+
+/// Hip centres of a calibrated body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HipCentres {
+    /// The name of a regression, [`HipCentres::FUNCTIONAL`] or [`HipCentres::RECORDED`].
+    pub method: &'static str,
+    /// Mean distance from the centres in images of the hips, as published for the method [m].
+    pub expected_error_m: Option<f64>,
+    /// Places: forward, up and right from midway between the markers of the anterior spines, in axes through the
+    /// spines. Recorded centres: from midway between them, in axes of the pelvis [m].
+    pub centres_m: BySide<Vec3>,
+}
+
+impl HipCentres {
+    /// The centres of a movement of the hips.
+    pub const FUNCTIONAL: &'static str = "functional";
+    /// The centres are in the recording.
+    pub const RECORDED: &'static str = "recorded";
+    /// Fiorentino et al. 2016, with skin markers (`hip_centre`).
+    pub(super) const FUNCTIONAL_ERROR_M: f64 = 0.011;
 }
 
 /// Scale factor of one body.

@@ -138,13 +138,8 @@ fn best_lambda(observed: &[Vec3], weights: &[f64], whittaker: &Whittaker) -> Opt
 
 /// The path for given weights and λ.
 fn solved(observed: &[Vec3], weights: &[f64], lambda: f64, whittaker: &Whittaker) -> Option<Vec<Vec3>> {
-    let factor = whittaker.factor(weights, lambda)?;
-    let axis = |k: usize| {
-        let weighed = observed.iter().zip(weights).map(|(y, w)| if *w > 0.0 { w * y[k] } else { 0.0 });
-        let mut series: Vec<f64> = weighed.collect();
-        factor.solve(&mut series);
-        series
-    };
-    let [x, y, z] = [axis(0), axis(1), axis(2)];
-    Some(x.into_iter().zip(y).zip(z).map(|((x, y), z)| Vec3::new(x, y, z)).collect())
+    let weighed = |(y, w): (&Vec3, &f64)| if *w > 0.0 { y * *w } else { Vec3::zeros() };
+    let mut path: Vec<Vec3> = observed.iter().zip(weights).map(weighed).collect();
+    whittaker.factor(Some(weights), lambda)?.solve(&mut path);
+    Some(path)
 }

@@ -62,6 +62,11 @@ impl Budget {
         self.left() == 0
     }
 
+    /// Enough for another first frame, whatever the frames before it took.
+    pub(super) fn begin_again(&mut self) {
+        self.granted = self.spent + TO_BEGIN;
+    }
+
     /// The posture of the first frame is found.
     pub(super) fn end_beginning(&mut self) {
         self.limit_rest();

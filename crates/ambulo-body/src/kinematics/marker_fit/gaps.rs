@@ -13,7 +13,8 @@
 //! In between, unknowns that the visible markers do not determine are pulled by springs towards a curve across the gap
 //! ([`fill_gap`]), so that a single marker of a foot still counts. The gain of an unknown is its RMS change per metre
 //! of error in each visible marker: above [`WEAK`] the curve supports the markers; above [`UNSEEN`] the unknown is not
-//! determined, and the curve bridges it up to the length in the settings.
+//! determined, and the curve bridges it up to the length in the settings. Longer gaps of an arm are bridged by a
+//! straight line, and at the ends of the recording by the nearest value: a lost hand does not take time from the legs.
 //!
 //! Pinned by: tests/marker_gaps.rs
 
@@ -24,6 +25,7 @@ use super::solve::Outcome;
 use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Gain above which a curve supports the markers [rad/m]: 5 mm cause 7 degrees.
 const WEAK: f64 = 25.0;
@@ -289,12 +291,17 @@ fn bridge_all(
         for (start, end) in stretches(&known) {
             touched[start..end].fill(true);
             let length_s = (end - start) as f64 * step_s;
-            if start > 0 && end < count {
+            let is_inside = start > 0 && end < count;
+            let is_long = length_s > longest_s + 0.5 * step_s;
+            if is_inside && !(is_long && problem.on_arm[u]) {
                 fill_gap(&mut values, &known, start, end, step_s);
             } else {
                 draw(&mut values, start, end);
             }
             bridge_gaps(&mut states[u..], unknowns, [start, end, count], longest_s + 0.5 * step_s, step_s);
+            if problem.on_arm[u] {
+                hold_arm(&mut states[u..], unknowns, start..end);
+            }
             (start..end).for_each(|f| springs[f * unknowns + u] = (values[f], stiffness(length_s)));
         }
     }
@@ -317,6 +324,15 @@ pub fn bridge_gaps(
         let inside = start + a > 0 && start + b < count;
         if inside && (b - a) as f64 * step_s <= longest_s {
             (start + a..start + b).for_each(|f| states[f * stride] = Determination::Bridged);
+        }
+    }
+}
+
+/// Marks gaps of an unknown of an arm as bridged, however long: a lost hand takes no time from the legs.
+fn hold_arm(states: &mut [Determination], stride: usize, stretch: Range<usize>) {
+    for frame in stretch {
+        if states[frame * stride] == Determination::Gap {
+            states[frame * stride] = Determination::Bridged;
         }
     }
 }

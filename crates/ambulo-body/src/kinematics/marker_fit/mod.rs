@@ -20,7 +20,8 @@
 //!
 //! Source: T.-W. Lu, J.J. O'Connor 1999, J. Biomech. 32:129-134 (global optimisation) (unverified).
 //! Cost: about 10 µs per step, three or four steps per frame; `cargo xtask bench-markers`.
-//! The number of linear solves is bounded by 32 per frame and 3200 for the first (`budget`).
+//! The number of linear solves is bounded by 32 per frame and 3200 for the first (`budget`). If the body is lost, other
+//! starts are tried, each with as many, and at last all frames are fitted together (`attempts`).
 //! Not handled: markers fixed to ground; weights that vary in time.
 //! Pinned by: tests/marker_fit.rs, tests/marker_gaps.rs, tests/marker_misplaced.rs, tests/marker_outliers.rs,
 //! tests/marker_smoothing.rs
@@ -36,6 +37,7 @@ mod solve;
 mod tasks;
 mod tree;
 
+mod attempts;
 mod frames;
 mod sequence;
 mod start;
@@ -144,7 +146,7 @@ fn fitted(
     }
     let default: Vec<f64> =
         (0..problem.tree.unknowns()).map(|u| model.coordinates()[problem.tree.coordinate(u)].default_value).collect();
-    sequence::run(&mut problem, &mut frames, settings.outliers, &default);
+    let mut tried = attempts::follow(&mut problem, &mut frames, settings.outliers, &default);
     problem.solver.budget.grant_afterwards(frames.count());
     let mut elsewhere = Vec::new();
     if settings.outliers != OutlierDetection::Off {
@@ -154,12 +156,20 @@ fn fitted(
         elsewhere = misplaced::reduce_weights(&mut problem, &mut frames);
     }
     let mut states = gaps::refit(&mut problem, &mut frames, settings.longest_gap_s);
-    if let FitMethod::Together(prior) = settings.method {
+    let prior = match settings.method {
+        FitMethod::Together(prior) => Some(prior),
+        FitMethod::ByRecording | FitMethod::Frames => attempts::ended_early(&problem, &frames).then(|| {
+            tried.push(report::together(&problem, &frames));
+            SmoothnessPrior::default()
+        }),
+    };
+    if let Some(prior) = prior {
         smoothing::smooth(model, &mut problem, &mut frames, &states, prior, Ending::EXACT);
     }
     gaps::open_unfitted(&mut problem, &mut frames, &mut states);
     report::missing(&problem, &frames, findings);
     report::excluded(&problem, &frames, findings);
+    report::tried(&tried, findings);
     report::unfitted(&problem, &frames, findings);
     report::misplaced(&problem, &elsewhere, findings);
     report::coordinates(model, &problem, &frames, &states, settings.longest_gap_s, findings);

@@ -8,7 +8,7 @@ use super::solve::{Bounds, Outcome, STEPS, Solver};
 use super::tasks::{HeldUnknown, held_unknowns};
 use super::tree::MarkerTree;
 use crate::findings::{Code, Findings};
-use crate::model::{Drive, Function, Model};
+use crate::model::{CoordinateId, Drive, Function, Model, Region};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
 use std::borrow::Cow;
@@ -29,6 +29,8 @@ pub(super) struct FitProblem<'a> {
     /// The recorded markers, in the same order.
     pub(super) paths: Vec<Cow<'a, MarkerPath>>,
     pub(super) weights: Vec<f64>,
+    /// Whether each unknown moves an arm.
+    pub(super) on_arm: Vec<bool>,
     pub(super) times: Cow<'a, [f64]>,
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
@@ -67,6 +69,7 @@ impl<'a> FitProblem<'a> {
             frame_weights: vec![0.0; points.len()],
             paths: common.iter().map(|c| Cow::Borrowed(c.path)).collect(),
             weights: common.iter().map(|c| c.weight).collect(),
+            on_arm: on_arm(model, &tree),
             times: Cow::Borrowed(&recording.times),
             prescribed: prescribed.collect(),
             tasks: held_unknowns(model, &tree, &settings.tasks, findings),
@@ -84,6 +87,7 @@ impl<'a> FitProblem<'a> {
             points: self.points,
             paths: self.paths.into_iter().map(|path| Cow::Owned(path.into_owned())).collect(),
             weights: self.weights,
+            on_arm: self.on_arm,
             times: Cow::Owned(self.times.into_owned()),
             prescribed: self.prescribed,
             tasks: self.tasks,
@@ -338,6 +342,13 @@ fn first<'a>(names: impl Iterator<Item = &'a str>, most: usize) -> String {
         n if n > most => format!("{} and {} more", names[..most].join(", "), n - most),
         _ => names.join(", "),
     }
+}
+
+/// Whether each unknown moves an arm.
+fn on_arm(model: &Model, tree: &MarkerTree) -> Vec<bool> {
+    let ids: Vec<CoordinateId> = model.coordinate_ids().collect();
+    let is_on_arm = |unknown: usize| Region::of_coordinate(model, ids[tree.coordinate(unknown)]) == Some(Region::Arms);
+    (0..tree.unknowns()).map(is_on_arm).collect()
 }
 
 /// Ranges of the unknowns. Joints to ground have none: a person may turn around more often than the range of the root

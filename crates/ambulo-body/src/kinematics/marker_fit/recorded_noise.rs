@@ -54,7 +54,8 @@ pub(super) fn distances_in_band(problem: &mut FitProblem<'_>, frames: &Frames) -
     let rate_hz = rate_hz(&problem.times);
     let high_hz = HIGH_HZ.min(MOST_SHARE * rate_hz);
     let whittaker = Whittaker::new(count);
-    let cutoffs = [LOW_HZ, high_hz].map(|cutoff_hz| Whittaker::lambda_at(cutoff_hz, rate_hz));
+    let smoothers = [LOW_HZ, high_hz].map(|cutoff_hz| whittaker.factor(None, Whittaker::lambda_at(cutoff_hz, rate_hz)));
+    let smooth = |k: usize, series: &mut [Vec3]| smoothers[k].iter().for_each(|smoother| smoother.solve(series));
     let mut distances = vec![Vec3::zeros(); count * markers];
     let mut used = 0;
     for frame in (0..count).filter(|&frame| frames.outcomes[frame].is_some()) {
@@ -69,15 +70,13 @@ pub(super) fn distances_in_band(problem: &mut FitProblem<'_>, frames: &Frames) -
     let freedom = (1.0 - problem.tree.unknowns() as f64 / seen).max(LEAST_FREEDOM);
     let white = 0.5 * rate_hz / (high_hz - LOW_HZ).max(LOW_HZ) / freedom;
     let deviation = |i: usize| {
-        let axis = |k: usize| {
-            let mut slow: Vec<f64> = (0..count).map(|frame| distances[frame * markers + i][k]).collect();
-            let mut band = slow.clone();
-            whittaker.smooth(cutoffs[0], &mut slow);
-            band.iter_mut().zip(&slow).for_each(|(r, slow)| *r -= slow);
-            whittaker.smooth(cutoffs[1], &mut band);
-            band.iter().map(|r| r * r).sum::<f64>() / count as f64
-        };
-        ((axis(0) + axis(1) + axis(2)) / 3.0 * white).sqrt()
+        let mut slow: Vec<Vec3> = (0..count).map(|frame| distances[frame * markers + i]).collect();
+        let mut band = slow.clone();
+        smooth(0, &mut slow);
+        band.iter_mut().zip(&slow).for_each(|(r, slow)| *r -= slow);
+        smooth(1, &mut band);
+        let power = band.iter().map(Vec3::norm_squared).sum::<f64>() / count as f64;
+        (power / 3.0 * white).sqrt()
     };
     (0..markers).map(deviation).collect()
 }

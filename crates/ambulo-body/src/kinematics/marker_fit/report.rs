@@ -238,6 +238,24 @@ pub(super) fn unfitted(problem: &FitProblem<'_>, frames: &Frames, findings: &mut
     }
 }
 
+/// Why all frames are fitted together.
+pub(super) fn together(problem: &FitProblem<'_>, frames: &Frames) -> String {
+    let unfinished = spans(frames.count(), |frame| frames.is_unfinished(frame));
+    format!(
+        "frame by frame the fit took too many steps at {}; all frames were fitted together, with a prior on the change \
+         of acceleration",
+        times(problem, &unfinished)
+    )
+}
+
+/// Reports the attempts that followed the first one.
+pub(super) fn tried(attempts: &[String], findings: &mut Findings) {
+    for attempt in attempts {
+        let hint = "look at the distances of the markers, and correct markers that jump or have the labels of others";
+        findings.report(Code::MarkersRefitted, format!("{attempt}. hint: {hint}"));
+    }
+}
+
 /// Reports misplaced markers.
 pub(super) fn misplaced(problem: &FitProblem<'_>, markers: &[Misplaced], findings: &mut Findings) {
     for Misplaced { marker, rms_m, usual_m } in markers {

@@ -20,7 +20,8 @@ pub struct MarkerFit {
     pub iterations: Vec<usize>,
     /// Whether the iteration converged in each frame.
     pub converged: Vec<bool>,
-    /// Linear solves of the whole fit, which bound its time: at most 36 per frame and 5000 for the first.
+    /// Linear solves of the whole fit, which bound its time: 32 per frame and 3200 for the first, and as many for each
+    /// further attempt.
     pub solves: usize,
 }
 

@@ -1,4 +1,5 @@
-//! Fits frame after frame, each starting from the one before, and detects markers that jump or swap labels.
+//! Fits frame after frame, each starting from the one beside it, from a first frame in both directions, and detects
+//! markers that jump or swap labels.
 //!
 //! The offset of a marker, from the marker of the model to the recorded one in the axes of its body, changes slowly,
 //! because skin slides but does not jump. A frame whose offsets jump is fitted again: to all markers at the offsets of
@@ -38,7 +39,7 @@ const STEPS_BETWEEN: usize = 2;
 /// The weights are settled when a reweighting moves no unknown by more [rad or m].
 const SETTLED: f64 = 1e-4;
 /// A posture older than this [s] is not used for prediction.
-const MEMORY: f64 = 0.25;
+pub(super) const MEMORY: f64 = 0.25;
 /// In the first frame a swap of labels must reduce both distances from above this [m] to less than half.
 const FIRST_SWAP: f64 = 0.060;
 
@@ -57,6 +58,8 @@ pub(super) struct Tracking {
     used: Vec<bool>,
     paths: Vec<usize>,
     x: Vec<f64>,
+    /// The posture of the first frame, if it is not to be searched for.
+    given: Option<Vec<f64>>,
     trial: Vec<f64>,
     weights: Vec<f64>,
     distances: Vec<f64>,
@@ -77,6 +80,7 @@ impl Tracking {
             used: vec![true; markers],
             paths: (0..markers).collect(),
             x: default.to_vec(),
+            given: None,
             trial: default.to_vec(),
             distances: vec![f64::NAN; markers],
             weights: vec![0.0; markers],
@@ -86,22 +90,52 @@ impl Tracking {
     }
 }
 
-/// Fits every frame that has enough markers.
-pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: OutlierDetection, default: &[f64]) {
-    let mut memory = Tracking::new(frames.markers(), default);
-    for frame in 0..frames.count() {
-        fit_frame(problem, frames, &mut memory, frame, outliers, default);
-    }
-    use_majority(frames);
+/// Where a sequence of frames starts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start<'a> {
+    /// The first frame; the others follow towards the end and towards the beginning of the recording.
+    pub(super) frame: usize,
+    /// Its posture; `None` searches for it.
+    pub(super) posture: Option<&'a [f64]>,
+    /// A value per unknown, from which the search begins.
+    pub(super) default: &'a [f64],
 }
 
-/// If a marker is excluded from some frame to the end, and for longer than it was used before, its earlier position was
-/// the wrong one: uses the later frames instead.
-fn use_majority(frames: &mut Frames) {
+/// Fits every frame that has enough markers, from the first one on.
+pub(super) fn run(problem: &mut FitProblem<'_>, frames: &mut Frames, outliers: OutlierDetection, default: &[f64]) {
+    run_from(problem, frames, outliers, Start { frame: 0, posture: None, default });
+}
+
+/// Fits every frame that has enough markers, from a frame on in both directions.
+pub(super) fn run_from(
+    problem: &mut FitProblem<'_>,
+    frames: &mut Frames,
+    outliers: OutlierDetection,
+    start: Start<'_>,
+) {
+    let mut memory = Tracking::new(frames.markers(), start.default);
+    memory.given = start.posture.map(<[f64]>::to_vec);
+    let fit = |problem: &mut FitProblem<'_>, frames: &mut Frames, memory: &mut Tracking, frame: usize| {
+        fit_frame(problem, frames, memory, frame, outliers, start.default);
+    };
+    fit(problem, frames, &mut memory, start.frame);
+    let mut backwards = (start.frame > 0).then(|| memory.clone());
+    (start.frame + 1..frames.count()).for_each(|frame| fit(problem, frames, &mut memory, frame));
+    let all: Vec<usize> = (0..frames.count()).collect();
+    if let Some(memory) = &mut backwards {
+        (0..start.frame).rev().for_each(|frame| fit(problem, frames, memory, frame));
+        use_majority(frames, all.iter().copied());
+    }
+    use_majority(frames, all.iter().rev().copied());
+}
+
+/// If a marker is excluded from some frame to the end of the recording, and for longer than it was used before, its
+/// earlier position was the wrong one: uses the later frames instead. `ending` has the frames from the end on.
+fn use_majority(frames: &mut Frames, ending: impl Iterator<Item = usize> + Clone) {
     for i in 0..frames.markers() {
         let is_seen = |frames: &Frames, f: usize| frames.path(f, i) == i && frames.is_seen(f, i);
         let seen = |f: &usize| is_seen(frames, *f);
-        let off = (0..frames.count()).rev().filter(seen).take_while(|&f| !frames.is_used(f, i)).count();
+        let off = ending.clone().filter(seen).take_while(|&f| !frames.is_used(f, i)).count();
         let used = (0..frames.count()).filter(seen).filter(|&f| frames.is_used(f, i)).count();
         for frame in 0..frames.count() {
             if off > used && is_seen(frames, frame) {
@@ -139,7 +173,7 @@ pub(super) fn fit_frame(
         // After a gap, the last posture selects one of several sets of angles.
         memory.x = match memory.last[0] {
             Some(last) => start::posture(problem, frames.posture(last)),
-            None => start::posture(problem, default),
+            None => memory.given.take().unwrap_or_else(|| start::posture(problem, default)),
         };
         if memory.last[0].is_none() {
             if outliers != OutlierDetection::Off {
@@ -173,19 +207,19 @@ pub(super) fn fit_frame(
     remember(frames, memory, frame, t);
 }
 
-/// Predicts the posture from the last two frames, if they are recent.
+/// Predicts the posture from the last two frames, before or after it, if they are near in time.
 fn predict_posture(problem: &FitProblem<'_>, frames: &Frames, memory: &mut Tracking, frame: usize) -> bool {
     let t = problem.times[frame];
     let [Some(last), before] = memory.last else { return false };
-    let age = t - problem.times[last];
+    let age = (t - problem.times[last]).abs();
     if age > MEMORY {
         return false;
     }
     memory.x.copy_from_slice(frames.posture(last));
     if let Some(before) = before
-        && age < 2.5 * (problem.times[last] - problem.times[before])
+        && age < 2.5 * (problem.times[last] - problem.times[before]).abs()
     {
-        let ahead = age / (problem.times[last] - problem.times[before]);
+        let ahead = age / (problem.times[last] - problem.times[before]).abs();
         for ((x, a), b) in memory.x.iter_mut().zip(frames.posture(last)).zip(frames.posture(before)) {
             *x += ahead * (a - b);
         }
@@ -219,9 +253,9 @@ fn drop_unknown(problem: &mut FitProblem<'_>, memory: &mut Tracking) {
 
 /// Largest distance of a marker from its expected position [m].
 fn limit(memory: &Tracking, i: usize, t: f64) -> f64 {
-    let was_unseen = t - memory.seen[i] > 0.1;
+    let was_unseen = (t - memory.seen[i]).abs() > 0.1;
     let most = if was_unseen { MOST_SLIDE_UNSEEN } else { MOST_SLIDE };
-    JUMP + (SKIN_SPEED * (t - memory.times[i])).min(most)
+    JUMP + (SKIN_SPEED * (t - memory.times[i]).abs()).min(most)
 }
 
 /// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before and nothing
@@ -288,7 +322,7 @@ fn quiet_fit(
     };
     let changed = (0..frames.markers()).any(|i| {
         let change = (problem.offset(i, &problem.positions[i]) - memory.offsets[i]).norm();
-        problem.frame_weights[i] > 0.0 && change > SUSPICIOUS + SKIN_SPEED * (t - memory.times[i])
+        problem.frame_weights[i] > 0.0 && change > SUSPICIOUS + SKIN_SPEED * (t - memory.times[i]).abs()
     });
     if !changed {
         memory.x.copy_from_slice(&x);

@@ -11,6 +11,9 @@
 //! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
+//! A fit that need only be near the minimum keeps the factor of a step for the next ones, each with its own right-hand
+//! side, as long as the same coordinates are at the ends of their ranges: a solution costs a tenth of a factor.
+//!
 //! Long recordings are fitted in blocks that overlap, of which the inner parts are used: the prior reaches a few tenths
 //! of a second, and the matrix of all frames would take 26 kB per frame.
 //!
@@ -25,7 +28,7 @@ use super::problem::FitProblem;
 use super::settings::SmoothnessPrior;
 use super::solve::Outcome;
 use crate::model::{CoordinateKind, Model};
-use crate::numerics::BandMatrix;
+use crate::numerics::{BandFactor, BandMatrix};
 use crate::spatial::Vec3;
 use std::ops::Range;
 
@@ -53,8 +56,8 @@ pub(super) struct Ending {
     small_step: f64,
     /// The last step lowers the cost by less than this share of it.
     small_gain: f64,
-    /// Whether second derivatives of the positions are used, which end the iteration sooner and may lead astray far
-    /// from the solution.
+    /// Whether each step has a matrix of its own, with the second derivatives of the positions, which end the iteration
+    /// sooner and may lead astray far from the solution.
     newton: bool,
     /// Damping [weights times m²].
     damping: f64,
@@ -66,7 +69,7 @@ impl Ending {
         Ending { steps: 30, small_step: 1e-7, small_gain: 0.0, newton: true, damping: FLOOR };
     /// Far below the noise of video.
     pub(super) const NEAR: Ending =
-        Ending { steps: 12, small_step: 1e-3, small_gain: 1e-4, newton: false, damping: 1e-4 };
+        Ending { steps: 24, small_step: 1e-3, small_gain: 1e-4, newton: false, damping: 1e-4 };
 }
 
 /// The least-squares problem of a block of frames: positions, weights and the prior.
@@ -82,6 +85,18 @@ struct SmoothFit {
     precision: f64,
     /// 1 / (Δt³ J)² of each unknown.
     stiffness: Vec<f64>,
+}
+
+/// The factor of a matrix, and the unknowns that it holds at the ends of their ranges.
+struct Factored {
+    factor: BandFactor,
+    held: Vec<bool>,
+}
+
+/// A step, and the factor that gave it.
+struct Step {
+    step: Vec<f64>,
+    factored: Factored,
 }
 
 /// Blocks of a recording: the frames that are fitted together, and those of them that are used.
@@ -184,14 +199,19 @@ impl SmoothFit {
         let mut normal = Normal::new(&problem.tree);
         let mut total = self.cost(problem, &x);
         let (mut steps, mut converged) = (0, false);
+        let mut kept: Option<Factored> = None;
         while steps < ending.steps && !converged {
-            let Some(step) = self.step(problem, &mut normal, &x, ending) else { break };
+            let again = kept.take().and_then(|factored| self.next_step(problem, &mut normal, &x, factored));
+            let is_new = again.is_none();
+            let next = again.or_else(|| self.first_step(problem, &mut normal, &x, ending));
+            let Some(Step { step, factored }) = next else { break };
             let Some((next, after)) = self.walk(problem, &x, &step, total) else {
-                converged = true;
-                break;
+                converged = is_new;
+                continue;
             };
             let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             converged = longest < ending.small_step || total - after < ending.small_gain * total;
+            kept = (!ending.newton).then_some(factored);
             (x, total) = (next, after);
             steps += 1;
         }
@@ -231,9 +251,25 @@ impl SmoothFit {
     }
 
     /// The Newton step, or the Gauss-Newton step if the matrix is not positive definite.
-    fn step(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], ending: Ending) -> Option<Vec<f64>> {
+    fn first_step(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], ending: Ending) -> Option<Step> {
         let newton = ending.newton.then(|| self.solve(problem, normal, x, 1.0, ending.damping)).flatten();
         newton.or_else(|| self.solve(problem, normal, x, 0.0, ending.damping))
+    }
+
+    /// The step with a factor of earlier postures; `None` if other unknowns are at the ends of their ranges now.
+    fn next_step(
+        &self,
+        problem: &mut FitProblem<'_>,
+        normal: &mut Normal,
+        x: &[f64],
+        factored: Factored,
+    ) -> Option<Step> {
+        let mut right = self.right_side(problem, normal, x, |_, _, _| ());
+        if self.hold(problem, x, &mut right) != factored.held {
+            return None;
+        }
+        factored.factor.solve(&mut right);
+        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
     }
 
     fn solve(
@@ -243,9 +279,46 @@ impl SmoothFit {
         x: &[f64],
         curvature: f64,
         damping: f64,
-    ) -> Option<Vec<f64>> {
+    ) -> Option<Step> {
         let n = self.unknowns;
         let mut matrix = BandMatrix::zeros(self.frames * n, 3 * n);
+        let mut right = self.right_side(problem, normal, x, |first, normal, springs| {
+            for (i, stiffness) in springs.iter().enumerate() {
+                matrix.add(first + i, first + i, (damping + stiffness) * self.precision);
+            }
+            for (i, j, entry) in normal.branches.each_entry() {
+                let entry = normal.matrix[entry] - curvature * normal.curvature[entry];
+                matrix.add(first + i.max(j), first + i.min(j), self.precision * entry);
+            }
+        });
+        for (u, frame, _) in self.each_third(x) {
+            for a in 0..4 {
+                for b in 0..=a {
+                    let entry = self.stiffness[u] * THIRD[a] * THIRD[b];
+                    matrix.add((frame + a) * n + u, (frame + b) * n + u, entry);
+                }
+            }
+        }
+        let held = self.hold(problem, x, &mut right);
+        for i in (0..held.len()).filter(|&i| held[i]) {
+            matrix.add(i, i, HELD * self.precision);
+        }
+        let factor = matrix.factor()?;
+        factor.solve(&mut right);
+        let factored = Factored { factor, held };
+        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
+    }
+
+    /// The right-hand side at these postures; `each` gets the first row of each frame, its normal equations and its
+    /// springs.
+    fn right_side(
+        &self,
+        problem: &mut FitProblem<'_>,
+        normal: &mut Normal,
+        x: &[f64],
+        mut each: impl FnMut(usize, &Normal, &[f64]),
+    ) -> Vec<f64> {
+        let n = self.unknowns;
         let mut right = vec![0.0; self.frames * n];
         for frame in 0..self.frames {
             self.pose(problem, frame, x);
@@ -254,38 +327,29 @@ impl SmoothFit {
             for i in 0..n {
                 let (stiffness, anchor) = (problem.bounds.stiffness[i], problem.bounds.anchor[i]);
                 right[first + i] = self.precision * (normal.right[i] + stiffness * (anchor - x[first + i]));
-                matrix.add(first + i, first + i, (damping + stiffness) * self.precision);
             }
-            for (i, j, entry) in normal.branches.each_entry() {
-                let entry = normal.matrix[entry] - curvature * normal.curvature[entry];
-                matrix.add(first + i.max(j), first + i.min(j), self.precision * entry);
-            }
+            each(first, normal, &problem.bounds.stiffness);
         }
         for (u, frame, third) in self.each_third(x) {
-            for a in 0..4 {
-                let row = (frame + a) * n + u;
-                right[row] -= self.stiffness[u] * THIRD[a] * third;
-                for b in 0..=a {
-                    matrix.add(row, (frame + b) * n + u, self.stiffness[u] * THIRD[a] * THIRD[b]);
-                }
+            for (a, factor) in THIRD.iter().enumerate() {
+                right[(frame + a) * n + u] -= self.stiffness[u] * factor * third;
             }
         }
-        self.hold(problem, x, &mut matrix, &mut right);
-        let factor = matrix.factor()?;
-        factor.solve(&mut right);
-        right.iter().all(|s| s.is_finite()).then_some(right)
+        right
     }
 
-    /// Keeps coordinates at the end of their range if they are pushed outwards.
-    fn hold(&self, problem: &FitProblem<'_>, x: &[f64], matrix: &mut BandMatrix, right: &mut [f64]) {
-        for (i, push) in right.iter_mut().enumerate() {
+    /// Coordinates at the end of their range that are pushed outwards, which they are no longer.
+    fn hold(&self, problem: &FitProblem<'_>, x: &[f64], right: &mut [f64]) -> Vec<bool> {
+        let bounds = &problem.bounds;
+        let mut hold = |(i, push): (usize, &mut f64)| {
             let u = i % self.unknowns;
-            let (low, high) = (problem.bounds.low[u], problem.bounds.high[u]);
-            if (x[i] <= low && *push < 0.0) || (x[i] >= high && *push > 0.0) {
-                matrix.add(i, i, HELD * self.precision);
+            let is_held = (x[i] <= bounds.low[u] && *push < 0.0) || (x[i] >= bounds.high[u] && *push > 0.0);
+            if is_held {
                 *push = 0.0;
             }
-        }
+            is_held
+        };
+        right.iter_mut().enumerate().map(&mut hold).collect()
     }
 
     /// Shortens the step until it lowers the cost.

@@ -16,7 +16,7 @@ use crate::spatial::{Mat3, Pose};
 
 /// Rounds of the constant parts of the joints; each follows from the angles of the round before.
 const ROUNDS: usize = 5;
-/// Plausible heights of ankles above the floor relative to that of the segment table, from bare feet to thick soles.
+/// Plausible heights of ankles above the floor relative to the segment table, from bare feet to thick soles.
 const ANKLE_HEIGHTS: [f64; 2] = [0.6, 1.7];
 /// Fewest rotations of a joint that reaches every orientation.
 const ALL_ROTATIONS: usize = 3;

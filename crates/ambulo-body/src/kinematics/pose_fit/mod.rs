@@ -11,9 +11,9 @@
 //! between the hips. The trunk is turned by the smallest angle that brings its shoulders to the measured line from
 //! lumbar joint to shoulders, so that its mass centre follows the shoulders.
 //!
-//! The axes of a forearm are those of the anatomical position in the poses (palms forward), and of thumbs forward in
-//! the body: 90° of pronation apart (unverified; the forearms of the one walk that was seen are pronated by 79° and 99°
-//! on average).
+//! The axes of a forearm refer to the anatomical position in the poses (palms forward), and to thumbs forward in the
+//! body: 90° of pronation apart (unverified; the forearms of the one walk that was seen are pronated by 79° and 99° on
+//! average).
 //!
 //! Not handled: translations in joints; clavicles; given models.
 //! Pinned by: tests/segment_poses.rs
@@ -187,7 +187,7 @@ impl<'m> Follower<'m> {
     }
 }
 
-/// Distances of the recorded points from those of the body.
+/// Distances between recorded points and points of the body.
 struct Distances {
     /// Body, place on it and number in the recording of each point.
     points: Vec<(usize, Vec3, usize)>,

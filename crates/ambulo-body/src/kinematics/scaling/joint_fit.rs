@@ -12,9 +12,8 @@
 //! | `TIED` | σ_tied | 1 |
 //! | `POSTURE` | σ_q | rad |
 //!
-//! The size of a body without markers cannot be determined, nor that of a body with fewer than three at the end of a
-//! limb; it is tied to a neighbour: to its only child with markers (the talus is part of the foot), otherwise to its
-//! parent.
+//! The size cannot be determined for a body without markers, nor for a body with fewer than three at the end of a limb;
+//! it is tied to a neighbour: to its only child with markers (the talus is part of the foot), otherwise to its parent.
 //!
 //! One factor per body: its markers determine its length well and its width badly. ρ is Cauchy's, σ² ln(1 + (d/σ)²):
 //! most bodies share the proportions of the model, but clear evidence of markers may change them. Offsets of markers
@@ -41,12 +40,12 @@ use crate::spatial::Vec3;
 const MARKER: f64 = 0.01;
 /// Standard deviation of the logarithm of size between a body and its parent.
 const PROPORTION: f64 = 0.15;
-/// The same between a body whose size is not determined and its neighbour.
+/// The same standard deviation between a body whose size is not determined and its neighbour.
 const TIED: f64 = 0.01;
 const ENOUGH: usize = 3;
-/// The same between left and right: leg lengths differ by 1 % in most people.
+/// The same standard deviation between left and right: leg lengths differ by 1 % in most persons.
 const SIDE: f64 = 0.01;
-/// The same between the whole body and the model.
+/// The same standard deviation between the whole body and the model.
 const WHOLE: f64 = 0.5;
 /// Standard deviation of the joints from the default posture [rad, or m].
 const POSTURE: f64 = 1.0;
@@ -63,15 +62,15 @@ pub struct SizedModel {
     pub factors: Vec<Vec3>,
     /// The standing posture, one value per coordinate [rad or m].
     pub posture: Vec<f64>,
-    /// Root mean square distance of the markers from those of the unscaled model [m]; `None` without a fit to a
+    /// Root mean square distance of the markers from the markers of the unscaled model [m]; `None` without a fit to a
     /// standing trial.
     pub rms_before_m: Option<f64>,
     /// The same for the scaled model, before its markers were moved [m].
     pub rms_m: Option<f64>,
 }
 
-/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person. The
-/// body mass [kg] is that of the model if it is `None`.
+/// Scales all bodies to a standing trial in world axes, then moves the markers to their positions on the person.
+/// Without a `mass` [kg], the model keeps its mass.
 ///
 /// # Errors
 /// Markers that cannot be fitted, a mass that is not positive.
@@ -87,7 +86,7 @@ pub fn fit_size(
     let mut problem = Problem::new(model, &standing, &start.motion.columns)?;
     let mut z = problem.start.clone();
     // Quadratic first, so that a body with few markers is not given a separate size before the others have theirs; then
-    // from the posture of a model of about the right size, because that of a wrong size may have folded an arm.
+    // from the posture of a model of about the right size, because a model of a wrong size may have folded an arm.
     minimise(&mut problem, &mut z, STEPS);
     let about = model.scaled(&problem.factors(&z), None)?;
     let again = fit_markers(&about, &standing, &fit_settings, &mut Findings::default())?;
@@ -112,7 +111,7 @@ pub fn fit_size(
 struct Problem<'a> {
     model: &'a Model,
     standing: &'a MarkerRecording,
-    /// Number of unknowns of the posture; those of the sizes follow.
+    /// Number of unknowns of the posture; the unknown sizes follow.
     unknowns: usize,
     /// The coordinate of each.
     coordinates: Vec<usize>,

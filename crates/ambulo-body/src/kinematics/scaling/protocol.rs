@@ -164,7 +164,7 @@ fn during(recording: &MarkerRecording, range_s: Option<[f64; 2]>) -> Result<Mark
     Ok(recording.part(first..end))
 }
 
-/// The model with the markers of the trial: those that are not fixed at their recorded positions.
+/// The model with the markers of the trial; markers that are not fixed get their recorded positions.
 fn placed(
     scaled: &Model,
     standing: &MarkerRecording,

@@ -20,7 +20,7 @@ pub enum SensorError {
         /// Names that would be known.
         example: String,
     },
-    /// A sensor sent nothing in the posture of the calibration.
+    /// A sensor has no data in the posture of the calibration.
     #[error(
         "the sensor `{sensor}` has no orientation in the standing posture ({place}); expected one. hint: choose a \
          standing trial in which all sensors send, or remove the column"
@@ -28,13 +28,13 @@ pub enum SensorError {
     NotCalibrated {
         /// Name of the sensor.
         sensor: String,
-        /// Where the standing posture was looked for.
+        /// Where the standing posture was searched for.
         place: String,
     },
     /// A sensor of the heading that is not there.
     #[error("there is no sensor `{found}` for the heading; expected one of {known}")]
     NoBaseSensor {
-        /// Its name.
+        /// Name of the sensor.
         found: String,
         /// Names of the sensors.
         known: String,
@@ -49,7 +49,7 @@ pub enum SensorError {
         axis: String,
         /// Name of the sensor.
         sensor: String,
-        /// Its angle above the floor [deg].
+        /// Angle of the axis above the floor [deg].
         angle_deg: f64,
     },
     /// A motion that does not show where forward is.
@@ -60,7 +60,7 @@ pub enum SensorError {
     Heading {
         /// Flexion of the knees.
         found: String,
-        /// How much they must bend [deg].
+        /// Required bending [deg].
         expected_deg: f64,
     },
     /// Coordinates that the sensors do not determine.
@@ -81,7 +81,7 @@ pub enum SensorError {
         /// Name of the model.
         model: String,
     },
-    /// A pelvis that cannot move to where the feet put it.
+    /// The pelvis cannot move in all directions, so the feet cannot determine its place.
     #[error(
         "the root of `{model}` cannot move along all three directions; expected three translations with a coordinate \
          each"

@@ -12,7 +12,7 @@
 //! | `poses` | B | orientations of the bodies |
 //!
 //! |·|² is the sum of the squares of the elements: 8 sin²(θ/2) for sensors that are off by θ, which is 2 θ² for small angles; OpenSim minimises
-//! Σ w θ². The solver is that of [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which
+//! Σ w θ². The solver is [`marker_fit`](super::marker_fit): in a copy of the model without lengths, in which
 //! all joints are at one point, the tips of the axes of a sensor are markers, and the differences of directions are
 //! distances.
 //!
@@ -59,13 +59,13 @@ pub struct SensorTrial<'a> {
 /// Axes of the earth of sensors, and the direction forward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorAxes {
-    /// Turn from the axes of the sensors' earth to those of the world, of which y is up.
+    /// Rotation from the earth axes of the sensors to world axes (y up).
     pub world_from_earth: Mat3,
-    /// How the direction forward is found.
+    /// Method that determines the forward direction.
     pub heading: SensorHeading,
 }
 
-/// How the direction in which the person faces is found.
+/// Method that determines the direction in which the person faces.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorHeading {
     /// The bending of the knees.
@@ -82,7 +82,7 @@ pub enum SensorHeading {
 }
 
 impl Default for SensorAxes {
-    /// An earth with z up, as that of most sensors.
+    /// Earth axes with z up, as most sensors use.
     fn default() -> Self {
         SensorAxes { world_from_earth: rotation_about(Vec3::x(), -FRAC_PI_2), heading: SensorHeading::Knees }
     }
@@ -105,16 +105,16 @@ pub fn standing_posture(model: &Model, sensors: &[(String, BodyId, Mat3)], axes:
 /// Coordinates from sensors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorFit {
-    /// All coordinates. Those of the place of the root are derived from the feet on the ground.
+    /// All coordinates. The translations of the root are derived from the feet on the ground.
     pub motion: Motion,
-    /// Turn about the vertical that was applied to the orientations, from the sensors' heading to that of the model
-    /// [rad].
+    /// Rotation about the vertical that was applied to the orientations, from the sensors' heading to the model's
+    /// heading [rad].
     pub heading: f64,
     /// Name of each used sensor, with the angle between sensor and body: root mean square over the frames [rad].
     pub angles: Vec<(String, f64)>,
 }
 
-/// Fits a model to the orientations of sensors. Weights of sensors are those of the settings, by name.
+/// Fits a model to the orientations of sensors. `settings` has the weights of sensors, by name.
 ///
 /// # Errors
 /// Sensors that are on no body, no standing posture, no direction forward, coordinates that are not determined: see
@@ -143,7 +143,7 @@ pub fn fit_sensors(
         tasks: Vec::new(),
         ..settings.clone()
     };
-    // Its findings speak of markers; gaps of sensors are reported here.
+    // Findings of the marker fit would name markers, so they are dropped; gaps of sensors are reported here.
     let fit = fit_markers(&fitted, &tips, &settings, &mut Findings::default())?;
     report_gaps(trial.moving, &placed, findings);
     let rms = |name: String| fit.errors.iter().find(|error| error.name == name).map_or(0.0, |error| error.rms_m);
@@ -216,7 +216,8 @@ fn directions_of(model: &Model, placed: &[PlacedSensor]) -> Result<Model, Sensor
     Ok(Model::new(model.name(), model.gravity(), bodies, model.coordinates().to_vec(), markers)?)
 }
 
-/// Gives coordinates that turn no sensor their default value; refuses a motion in which one that does is never known.
+/// Sets coordinates that turn no sensor to their default value. Rejects a motion in which a coordinate that turns a
+/// sensor is never determined.
 fn fill_undetermined(model: &Model, motion: &mut Motion, findings: &mut Findings) -> Result<(), SensorError> {
     let mut constant = Vec::new();
     let mut unknown = Vec::new();
@@ -244,7 +245,7 @@ fn fill_undetermined(model: &Model, motion: &mut Motion, findings: &mut Findings
     Ok(())
 }
 
-/// Reports sensors that sent nothing in some frames.
+/// Reports sensors without data in some frames.
 fn report_gaps(moving: &SensorRecording, placed: &[PlacedSensor], findings: &mut Findings) {
     for sensor in placed {
         let path = &moving.sensors[sensor.number].orientations;

@@ -3,13 +3,13 @@
 //! A sensor shows how a segment is turned, not where it is. With the root at the origin, forward kinematics gives the
 //! points k of the soles, x_k(t). The lowest ones are on the ground and do not move: the root is at
 //!
-//!   height:  h(t) = -Σ w_k y_k / Σ w_k                 along the floor:  p(t+dt) = p(t) - Σ w_k (x_k(t+dt) - x_k(t)) / Σ w_k
+//!   height:  h(t) = -Σ w_k y_k / Σ w_k           along the floor:  p(t+dt) = p(t) - Σ w_k (x_k(t+dt) - x_k(t)) / Σ w_k
 //!
 //!   w_k = exp(-(y_k - y_min)/ε) exp(-|v_k - v_min|²/2σ²)
 //!
-//! where v_k is the velocity of the point relative to the root, and v_min that of the lowest point: points that are on
-//! the ground together move alike. ε and σ make the change from one point to the next smooth. The increments along the
-//! floor use the mean weights of both frames.
+//! where v_k is the velocity of the point relative to the root, and v_min the same velocity of the lowest point: points
+//! that are on the ground together move alike. ε and σ make the change from one point to the next smooth. The
+//! increments along the floor use the mean weights of both frames.
 //!
 //! A foot is on the ground at every instant: flight is not detected, and its height is wrong.
 //! Pinned by: tests/sensor_fit.rs

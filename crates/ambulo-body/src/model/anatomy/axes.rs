@@ -76,8 +76,8 @@ impl Tree<'_> {
         Some(Mat3::from_columns(&[forward, self.up, forward.cross(&self.up)]))
     }
 
-    /// Side of every body: for bodies of a leg that of the leg; for others by their position, if there is a counterpart
-    /// on the other side; otherwise the side in their name.
+    /// Side of every body: for bodies of a leg, the side of the leg; for others by their position, if there is a
+    /// counterpart on the other side; otherwise the side in their name.
     pub(super) fn sides(&self, pelvis: BodyId, oriented: &Oriented) -> Vec<Option<Side>> {
         let mut sides: Vec<Option<Side>> = vec![None; self.bodies.len()];
         let hips: Vec<Vec3> = oriented.legs.values().flatten().map(|leg| self.hip(leg)).collect();

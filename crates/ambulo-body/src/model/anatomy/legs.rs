@@ -32,7 +32,7 @@ pub(super) struct Tree<'a> {
 /// A chain of bodies from the pelvis to the toes, with the groups of its joints.
 #[derive(Debug, Clone)]
 pub(super) struct LegChain {
-    /// From the pelvis on. Joint i is between bodies i and i + 1.
+    /// Bodies of the leg from the pelvis on. Joint i is between bodies i and i + 1.
     pub(super) bodies: Vec<BodyId>,
     /// First joint of hip, knee and ankle, and the first one beyond the ankle.
     pub(super) groups: [usize; 4],

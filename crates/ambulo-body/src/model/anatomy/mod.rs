@@ -9,13 +9,17 @@
 //! Pinned by: tests/anatomy.rs
 
 mod axes;
+mod joint_system;
 mod legs;
 mod movement;
 mod pelvic_frame;
+mod region;
 mod sole;
 
+pub(crate) use joint_system::JointSystem;
 pub use movement::{Meaning, Movement};
 pub use pelvic_frame::{PelvicFrame, PelvicFrameError};
+pub use region::Region;
 pub use sole::{Sole, SolePoint, Stature};
 
 use super::posture::ModelPosture;
@@ -50,6 +54,8 @@ pub struct Leg {
     foot_axes: [Vec3; 2],
     /// Hip to knee and knee to ankle together [m].
     thigh_and_shank_m: f64,
+    /// Joint coordinate systems of hip, knee and ankle; `None` for a leg that moves in the sagittal plane only.
+    pub(crate) systems: Option<[JointSystem; 3]>,
 }
 
 impl Leg {
@@ -102,7 +108,11 @@ impl Anatomy {
         let body_sides = tree.sides(pelvis, &oriented);
         let trunk = trunk(&tree, pelvis, &oriented, &body_sides);
         let meanings = Meanings::find(&tree, &model.coordinates, &oriented, [Some(pelvis), trunk]);
-        let legs = BySide::from_fn(|side| oriented.legs[side].as_ref().map(|chain| leg(&tree, chain, &oriented.axes)));
+        let legs = BySide::from_fn(|side| {
+            let chain = oriented.legs[side].as_ref()?;
+            let systems = JointSystem::of_leg(&tree, chain, side, &oriented.axes, &meanings);
+            Some(Leg { systems, ..leg(&tree, chain, &oriented.axes) })
+        });
         Some(Anatomy {
             pelvis: Some(pelvis),
             trunk,
@@ -174,6 +184,14 @@ impl Anatomy {
         self.meanings.get(id.index()).copied().flatten()
     }
 
+    /// Whether any of these coordinates turns the joint of a movement of a leg, or one between that joint and the
+    /// pelvis: where such a coordinate is not measured, neither is the direction of the joint's moment.
+    #[must_use]
+    pub fn is_any_above(&self, coordinates: &[CoordinateId], movement: Movement, side: Side) -> bool {
+        let meanings = coordinates.iter().filter_map(|id| self.meaning(*id));
+        meanings.into_iter().any(|meaning| meaning.is_above(movement, side))
+    }
+
     /// The coordinate that measures a movement of a side (`None` for pelvis and trunk), with its sign: +1 if the
     /// coordinate increases during the movement, otherwise -1.
     #[must_use]
@@ -210,7 +228,7 @@ impl Model {
     }
 }
 
-/// Rounds the axes of the body to those of the world if they are close: hips of models are rarely exactly level.
+/// Rounds the axes of the body to the world axes if they are close: hips of models are rarely exactly level.
 fn nearest_axes(axes: &Mat3) -> Mat3 {
     /// Cosine of 25 degrees.
     const NEAR: f64 = 0.9;
@@ -226,7 +244,7 @@ fn neutral_value(coordinate: &Coordinate) -> f64 {
     if has_zero { 0.0 } else { coordinate.default_value }
 }
 
-/// Side of each coordinate: that of the body that it moves, otherwise the one in its name.
+/// Side of each coordinate: the side of the body that it moves, otherwise the side in its name.
 fn coordinate_sides(model: &Model, body_sides: &[Option<Side>]) -> Vec<Option<Side>> {
     let mut sides: Vec<Option<Side>> = model.coordinates.iter().map(|c| Side::of_name(&c.name)).collect();
     for (body, side) in model.bodies.iter().zip(body_sides).filter(|(_, side)| side.is_some()) {
@@ -273,5 +291,6 @@ fn leg(tree: &Tree<'_>, chain: &LegChain, axes: &Mat3) -> Leg {
         foot_axes: foot_axes(axes, &world_from_foot),
         thigh_and_shank_m: (center(hip) - center(knee_joint)).norm()
             + (center(knee_joint) - center(ankle_joint)).norm(),
+        systems: None,
     }
 }

@@ -68,6 +68,18 @@ pub enum Movement {
     TrunkRotation,
 }
 
+impl Movement {
+    /// The last movement of the same joint of a leg; the movements of a leg follow each other from the hip down.
+    fn last_of_joint(self) -> Movement {
+        [HIP, KNEE, ANKLE, TOES]
+            .iter()
+            .map(|planes| planes.iter().flatten().map(|(movement, _)| *movement))
+            .find(|movements| movements.clone().any(|movement| movement == self))
+            .and_then(Iterator::max)
+            .unwrap_or(self)
+    }
+}
+
 /// The movement that a coordinate measures, and its sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meaning {
@@ -80,7 +92,7 @@ pub struct Meaning {
 }
 
 /// The movements of a joint about the axes forward, up and right, each with the sign of a rotation about the axis.
-type Planes = [Option<(Movement, f64)>; 3];
+pub(crate) type Planes = [Option<(Movement, f64)>; 3];
 
 const PELVIS: Planes = [
     Some((Movement::PelvicObliquity, -1.0)),
@@ -103,10 +115,26 @@ const TOES: Planes = [None, None, Some((Movement::ToeExtension, 1.0))];
 const PELVIS_SHIFTS: Planes =
     [Some((Movement::PelvisForward, 1.0)), Some((Movement::PelvisUp, 1.0)), Some((Movement::PelvisRight, 1.0))];
 
-/// The movements on the left side.
-fn mirrored([frontal, transverse, sagittal]: Planes) -> Planes {
+/// The movements of a joint on a side.
+fn of_side([frontal, transverse, sagittal]: Planes, side: Side) -> Planes {
     let turned = |entry: Option<(Movement, f64)>| entry.map(|(movement, sign)| (movement, -sign));
-    [turned(frontal), turned(transverse), sagittal]
+    match side {
+        Side::Right => [frontal, transverse, sagittal],
+        Side::Left => [turned(frontal), turned(transverse), sagittal],
+    }
+}
+
+/// The movements of hip, knee and ankle on a side.
+pub(super) fn planes_of_leg(side: Side) -> [Planes; 3] {
+    [HIP, KNEE, ANKLE].map(|planes| of_side(planes, side))
+}
+
+impl Meaning {
+    /// Whether a coordinate turns the joint of a movement of a leg, or one between that joint and the pelvis.
+    pub(super) fn is_above(self, movement: Movement, side: Side) -> bool {
+        let joints = Movement::HipFlexion..=movement.last_of_joint();
+        self.side == Some(side) && joints.contains(&self.movement)
+    }
 }
 
 /// A coordinate and the axis of its motion: forward, up and right.
@@ -139,11 +167,10 @@ impl<'a> Meanings<'a> {
             let Some(leg) = leg else { continue };
             let [hip, knee, ankle, end] = leg.groups;
             let toes = leg.bodies.len().min(end + 2) - 1;
-            let of_side = |planes: Planes| if side == Side::Right { planes } else { mirrored(planes) };
             for (joints, planes) in [(hip..knee, HIP), (knee..ankle, KNEE), (ankle..end, ANKLE), (end..toes, TOES)] {
                 let least = if planes == TOES { LEAST_SHARE_OF_TOES } else { LEAST_SHARE };
                 let axes = meanings.turns(&leg.bodies[joints.start..=joints.end]);
-                meanings.assign(axes, of_side(planes), Some(side), least);
+                meanings.assign(axes, of_side(planes, side), Some(side), least);
             }
         }
         meanings.found

@@ -1,4 +1,4 @@
-//! The clinical axes of the pelvis: those through its iliac spines.
+//! The clinical axes of the pelvis, through its iliac spines.
 //!
 //! The neutral posture of a model has an arbitrary pelvic tilt. Clinically, pelvic tilt is the angle between
 //! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip
@@ -6,7 +6,8 @@
 //! from the markers on the spines:
 //!
 //!   right   = from the left to the right anterior spine
-//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones, perpendicular to `right`
+//!   forward = from midway between the posterior spines (or the sacrum) to midway between the anterior ones,
+//!             perpendicular to `right`
 //!   up      = right × forward
 //!
 //! Source: Kadaba 1990, Davis 1991, as in Plug-in-Gait (unverified); compared with its angles in
@@ -37,7 +38,7 @@ pub enum PelvicFrameError {
     /// A model without legs.
     #[error("the model `{model}` has no pelvis with two legs, so pelvic tilt is not defined")]
     NoPelvis {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A pelvis without markers on the iliac spines.
@@ -47,7 +48,7 @@ pub enum PelvicFrameError {
          those of the coordinates of the model"
     )]
     NoLandmarks {
-        /// Its name.
+        /// Name of the model.
         model: String,
         /// The missing landmarks.
         missing: &'static str,
@@ -57,7 +58,7 @@ pub enum PelvicFrameError {
         "the markers on the iliac spines of the model `{model}` are on a line or at one position; expected a triangle"
     )]
     Degenerate {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
 }

@@ -8,7 +8,7 @@ use crate::numerics::elementary::cbrt;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Length of thigh and shank of a model, joint centre to joint centre, divided by stature: Gait2392 and Rajagopal's
-/// model, scaled to people of known stature, have 0.488 and 0.470, Drillis and Contini 0.491.
+/// model, scaled to subjects of known stature, have 0.488 and 0.470, Drillis and Contini 0.491.
 const THIGH_AND_SHANK: f64 = 0.48;
 /// Mass [kg] and stature [m] of a man: for a model without legs, stature scales with the cube root of mass.
 const REFERENCE: (f64, f64) = (72.6, 1.80);
@@ -58,7 +58,7 @@ pub struct SolePoint {
 }
 
 impl Sole {
-    /// Computes the sole from heel, ball and toe spheres; its ends are those of the outermost spheres.
+    /// Computes the sole from heel, ball and toe spheres; it ends where the outermost spheres end.
     #[must_use]
     pub fn of_spheres(spheres: &[ContactSphere], side: Side, half_width: f64) -> Option<Sole> {
         let first = |part: SpherePart| spheres.iter().find(|sphere| sphere.side == side && sphere.part == part);

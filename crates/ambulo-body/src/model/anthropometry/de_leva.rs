@@ -5,7 +5,7 @@
 //! mean lengths as transcribed in R. Gurchiek's `deleva.m`; both were read, and agree where both have a value. The
 //! trunk is measured from suprasternale, the head from vertex to mid-gonion; the neck between them closes the stature
 //! and has no mass of its own (it is in the head's and the upper trunk's).
-//! The foot's longitudinal axis runs from heel to toe; its sagittal axis, that of a pointed foot, is then the vertical.
+//! The foot's longitudinal axis runs from heel to toe; its sagittal axis (of a pointed foot) is then the vertical.
 
 use super::dimensions::{ANKLE_HEIGHT, HEEL_TO_ANKLE};
 use super::proportions::{Lengths, Proportions, RigidPart, Row};
@@ -109,11 +109,8 @@ pub(super) fn proportions(sample: &Sample) -> Proportions {
         forearm: hanging(&sample.forearm),
         hand: hanging(&sample.hand),
         pelvis: vec![lower.below(omphalion)],
-        torso: vec![
-            middle.below(xiphion),
-            upper.below(suprasternale),
-            sample.row(&sample.head).below(1.0 - lengths.leg()),
-        ],
+        torso: vec![middle.below(xiphion), upper.below(suprasternale)],
+        head: sample.row(&sample.head).below(1.0 - lengths.leg()),
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) const FOOT_WIDTH: f64 = 0.055;
 pub(crate) const ANKLE_HEIGHT: f64 = 0.039;
 /// 35 mm at 1.80 m: the heel sphere of OpenSim Moco's `2D_gait.osim`; others have 30 to 50 mm.
 pub(super) const HEEL_RADIUS: f64 = 0.035 / 1.80;
-/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and those of Falisse 2022 (32 mm).
+/// 25 mm at 1.80 m: between that model's front sphere (15 mm) and the spheres of Falisse 2022 (32 mm).
 pub(super) const BALL_RADIUS: f64 = 0.025 / 1.80;
 /// 15 mm at 1.80 m: the front sphere of `2D_gait.osim`.
 pub(super) const TOE_RADIUS: f64 = 0.015 / 1.80;
@@ -98,6 +98,13 @@ impl Dimensions {
             forearm: lengths.forearm * height,
             hand: lengths.hand * height,
         }
+    }
+
+    /// The joint between neck and trunk above the lumbar joint: Dumas, Cheze, Verriest 2007 place it 55 % of the depth
+    /// of the thorax from the seventh cervical vertebra towards the jugular notch, 8° up (unverified). At the usual
+    /// places of both that is 1.24 of the distance from the lumbar joint to the shoulders, above the lumbar joint.
+    pub(crate) fn neck(&self) -> f64 {
+        1.24 * (self.shoulder_height - self.lumbar_height.unwrap_or(0.0))
     }
 
     /// Vertex above mid-hip.

@@ -29,13 +29,13 @@ impl SpherePart {
 /// A sphere under a foot: heel, ball of the foot or toes.
 ///
 /// In upright standing all of them touch the ground. They lie on the mid-line of the foot; the heel sphere begins at
-/// the heel, the toe sphere ends at the tip of the toes. Radii scale with stature from those of published foot models
-/// at 1.80 m (OpenSim Moco `2D_gait.osim`: heel 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
+/// the heel, the toe sphere ends at the tip of the toes. Radii of published foot models, scaled with stature,
+/// from 1.80 m (OpenSim Moco `2D_gait.osim`: heel 35 mm, front 15 mm; Falisse 2022: 32 mm; SCONE: 30 mm).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSphere {
     /// `heel_r`, `ball_r`, `toe_r`, `heel_l`, `ball_l` or `toe_l`; for files and messages.
     pub name: String,
-    /// Its part of the foot.
+    /// Part of the foot that it belongs to.
     pub part: SpherePart,
     /// The foot.
     pub side: Side,

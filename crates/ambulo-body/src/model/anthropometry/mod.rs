@@ -3,7 +3,7 @@
 //! A figure moves in a plane but has three-dimensional segments: hinges about z, hips and shoulders at their width. All
 //! coordinates zero is upright standing; the default of `pelvis_ty` is the leg length, so the soles touch the ground
 //! y = 0. Body frames have their origin at the proximal joint (`pelvis`, or the `torso` that is the root: mid-hip) and
-//! the axes of the world in that posture. Signs are those of docs/CONVENTIONS.md.
+//! the axes of the world in that posture. Signs follow docs/CONVENTIONS.md.
 //!
 //! | body              | joint to its parent | coordinate                              |
 //! |-------------------|---------------------|-----------------------------------------|
@@ -61,11 +61,11 @@ pub use foot::{ContactSphere, SpherePart};
 pub use table::{SegmentTable, UnknownTable};
 
 use super::anatomy::Sole;
-use super::{Model, ModelError, Side};
+use super::{BySide, Model, ModelError, Side};
 use crate::numerics::Shown;
 use crate::spatial::InertiaError;
 
-/// Range of body masses [kg]: from infants to the heaviest people who walk.
+/// Range of body masses [kg]: from infants to the heaviest persons who walk.
 const MASS_RANGE: [f64; 2] = [2.0, 300.0];
 /// Range of statures [m].
 const HEIGHT_RANGE: [f64; 2] = [0.4, 2.5];
@@ -83,6 +83,16 @@ pub struct Build {
     pub height: f64,
     /// Whether the toes have a joint at the ball of the foot.
     pub toe_joint: bool,
+}
+
+/// Parts of the upper body that are bodies of their own, behind the others in the list; a part without a joint is rigid
+/// with trunk or forearm.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct MovingParts {
+    /// A joint at the base of the neck.
+    pub(crate) head: bool,
+    /// Joints of the wrists.
+    pub(crate) hands: BySide<bool>,
 }
 
 /// Why a figure cannot be built.
@@ -138,7 +148,7 @@ pub struct Human {
     pub soles: Vec<ContactSphere>,
     /// Lengths [m].
     pub dimensions: Dimensions,
-    /// Its settings.
+    /// Settings of the figure.
     pub build: Build,
 }
 
@@ -168,10 +178,15 @@ impl Build {
     /// # Errors
     /// An implausible mass, stature or combination of both.
     pub fn human(&self) -> Result<Human, BuildError> {
+        self.human_with(&MovingParts::default())
+    }
+
+    /// The figure with joints of neck and wrists.
+    pub(in crate::model) fn human_with(&self, parts: &MovingParts) -> Result<Human, BuildError> {
         self.check()?;
         let proportions = self.table.proportions();
         let dimensions = Dimensions::new(&proportions.lengths, self.height);
-        let model = figure::model(self, &proportions, &dimensions)?;
+        let model = figure::model(self, &proportions, &dimensions, parts)?;
         let soles = foot::soles(&model, &dimensions, self.toe_joint);
         Ok(Human { model, soles, dimensions, build: *self })
     }

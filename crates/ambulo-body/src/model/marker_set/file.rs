@@ -80,7 +80,7 @@ impl Reading {
             return Err(table.missing("side", "the side of the limb, \"right\" or \"left\""));
         }
         let place = match (common.place, side) {
-            // An explicit position is used as written; that of a landmark is mirrored.
+            // An explicit position is used as written; the position of a landmark is mirrored.
             (Some(p), Some(Side::Left)) if table.get("place").is_none() => Some(Vec3::new(p.x, p.y, -p.z)),
             (place, _) => place,
         };

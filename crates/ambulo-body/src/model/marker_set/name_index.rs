@@ -28,7 +28,7 @@ const FEWEST_WITH_PREFIX: usize = 4;
 pub(super) enum NameReading {
     /// As written; only the case may differ.
     Written,
-    /// By side and meaning.
+    /// By side and meaning of the names.
     Meant,
 }
 
@@ -85,7 +85,7 @@ impl<'s> NameIndex<'s> {
 /// The keys under which a name may be found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Readings {
-    /// In lower case.
+    /// The name in lower case.
     pub written: String,
     /// As the name of each side and at last of none, in letters and digits.
     meant: Vec<(Option<Side>, String)>,

@@ -4,8 +4,8 @@ use super::NamedMarker;
 use crate::model::Side;
 use std::fmt::Write;
 
-/// A marker set as text: one table per marker, and a comment per name without a meaning. `comment` stands on top; the
-/// names in `proposed` get a comment that asks to check them.
+/// A marker set as text: one table per marker, and a comment per name without a meaning. `comment` is written at the
+/// top; the names in `proposed` get a comment that asks to check them.
 #[must_use]
 pub fn marker_template(comment: &str, markers: &[NamedMarker], proposed: &[String], unknown: &[String]) -> String {
     let mut text = String::new();

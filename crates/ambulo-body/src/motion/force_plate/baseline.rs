@@ -15,7 +15,7 @@ const BLOCK_S: f64 = 0.05;
 const BLOCK_SAMPLES: usize = 3;
 /// Shortest total duration of the unloaded level [s].
 const SHORTEST_QUIET_S: f64 = 0.1;
-/// A block is quiet if its standard deviation is at most this many times that of the quietest twentieth ...
+/// A block is quiet if its standard deviation is at most this factor times the one of the quietest twentieth ...
 const QUIET_FACTOR: f64 = 3.0;
 /// ... or at most this [N].
 const QUIET_N: f64 = 1.0;

@@ -1,20 +1,20 @@
-//! Recognises the unit of measured forces by what a step weighs.
+//! Recognises the unit of measured forces from the body weight that follows from single steps.
 //!
-//! A step looks the same in every unit: the vertical force rises steeply from nothing, stays up and falls back. Over a
-//! step of duration t the mean force is m g (T / t), with the time T from one step to the next, because the mean over
-//! all steps is the weight (Newton). Walking has t = 1.2 T (a stance of 60 % of the stride); running has 2.8 steps a
-//! second, at which t is shorter than T. So a single step weighs a person to some 15 %, enough to distinguish newtons,
-//! kilonewtons and body weights.
+//! The shape of a step does not depend on the unit: the vertical force rises steeply from zero, stays high and falls
+//! again. The mean force over a stance of duration t is m g (T / t), with the time T from one step to the next, because
+//! the mean over all steps equals the weight (Newton). In walking t = 1.2 T (a stance takes 60 % of the stride). In
+//! running there are 2.8 steps per second, and t is shorter than T. A single step therefore gives the weight to about
+//! 15 %, which is enough to distinguish newtons, kilonewtons and body weights.
 //!
 //! Pinned by: tests/motion_body_weight.rs
 
 use crate::numerics::median;
 
-/// Weights of people, from a small child to the heaviest [N].
+/// Range of body weights, from a small child to the heaviest person [N].
 const PERSON_N: [f64; 2] = [50.0, 3000.0];
-/// Without a known mass, steps between these are persons in newtons, whatever they carry [N].
+/// Without a known mass, weights in this range are taken as newtons [N].
 const NEWTONS: [f64; 2] = [20.0, 12_000.0];
-/// A step in another unit weighs a known person to within this factor.
+/// Largest ratio of the weight from a step to the known weight for the right unit.
 const SAME_WEIGHT: f64 = 2.0;
 /// Kilonewtons and body weights are the same for a person of 102 kg; within this factor of each other the usual unit,
 /// kilonewtons, is taken.
@@ -23,7 +23,7 @@ const SAME_UNIT: f64 = 1.05;
 const STEP_S: [f64; 2] = [0.12, 1.6];
 /// A step begins and ends at this share of the largest force.
 const LOADED: f64 = 0.1;
-/// In its middle it carries at least this share of its own largest force: the dip of a walk is 0.6 to 0.9.
+/// In the middle of a step the force is at least this share of its largest value: the dip of a walk is 0.6 to 0.9.
 const HELD: f64 = 0.3;
 /// Stance over the time between two steps in walking.
 const WALK_STANCE: f64 = 1.2;
@@ -31,7 +31,7 @@ const WALK_STANCE: f64 = 1.2;
 const RUN_STEP_S: f64 = 0.36;
 const RUN_STANCE_S: f64 = 0.4;
 
-/// Units in which forces of people are found although files state newtons, or nothing.
+/// Units of ground forces in files that state newtons, or no unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ForceUnit {
     /// Thousands of newtons.
@@ -43,8 +43,8 @@ pub enum ForceUnit {
 }
 
 impl ForceUnit {
-    /// The unit in which this is a step of a person, if it is none in newtons. `stepped` is [`stepped_weight`] in the
-    /// unit of the file, `weight_n` the weight of the person, if it is known [N].
+    /// The unit of the forces, or `None` if they are newtons or no unit gives the weight of a person. `stepped` is the
+    /// [`stepped_weight`] in the unit of the file, `weight_n` the weight of the person, if it is known [N].
     #[must_use]
     pub fn of_steps(stepped: f64, weight_n: Option<f64>) -> Option<ForceUnit> {
         let is_person = match weight_n {
@@ -93,7 +93,8 @@ fn off(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
 
-/// What the whole steps in a vertical force weigh, in the unit of the force; `None` without a whole step, as in noise.
+/// The body weight that follows from the whole steps in a vertical force (median), in the unit of the force. `None` if
+/// there is no whole step, as in noise.
 #[must_use]
 pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
@@ -107,11 +108,11 @@ pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
     let is_inside = |run: &&[usize]| run[0] > 0 && run[run.len() - 1] + 1 < indices.len();
     let loaded: Vec<&[usize]> = runs.filter(|run| load[run[0]] > limit).filter(is_inside).collect();
     let weights: Vec<f64> = loaded.iter().filter_map(|run| weight_of(run, times, &load)).collect();
-    // Noise crosses the limit again and again.
+    // Noise crosses the limit many times.
     (2 * weights.len() >= loaded.len()).then(|| median(weights)).flatten()
 }
 
-/// What one step weighs; `None` if it is none.
+/// The body weight that follows from one loaded stretch; `None` if its duration or shape is not that of a step.
 fn weight_of(run: &[usize], times: &[f64], load: &[f64]) -> Option<f64> {
     let (first, last) = (*run.first()?, *run.last()?);
     let stance_s = times[last] - times[first];

@@ -97,13 +97,13 @@ fn described(file: &C3d, findings: &mut Findings) -> Result<Vec<(usize, Platform
     Ok(found)
 }
 
-/// What a step weighs in body weights, within the error of a single step.
+/// Weight of a step in body weights, within the error of a single step.
 const BODY_WEIGHT: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// A free moment of a foot has about this lever [m]: some newton metres under the weight of a person.
 const FREE_LEVER_M: f64 = 0.005;
 
-/// Assumes another unit of the forces where that of the file cannot be right, because no step of a person weighs so
-/// much or so little.
+/// Assumes another unit of the forces where the file's unit cannot be right, because no step of a person weighs so much
+/// or so little.
 fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)], findings: &mut Findings) {
     let weight_n = subject_from_c3d(file).mass_kg.map(|kg| kg * STANDARD_GRAVITY);
     let known = || sources.iter().filter_map(|(_, source)| source.as_ref().ok());
@@ -232,7 +232,7 @@ fn zero_samples(file: &C3d, [first, last]: [i64; 2]) -> Range<usize> {
     frame(first - 1)..frame(last)
 }
 
-/// Units of the channels; without one, the unit of the moment follows from that of the points.
+/// Units of the channels; without one, the unit of the moment follows from the unit of the points.
 ///
 /// A calibration matrix converts volts to the units of the file, so the units of the channels are then not used for
 /// the moment.

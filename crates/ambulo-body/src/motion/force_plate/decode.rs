@@ -65,7 +65,7 @@ struct Reading {
 }
 
 impl PlateSource {
-    /// What a step on the plate weighs, in the unit of the file; `None` without a whole step.
+    /// Body weight from the steps on the plate, in the unit of the file; `None` without a whole step.
     pub(super) fn stepped_weight(&self) -> Option<f64> {
         let layout = layout(self).ok()?;
         let surface = Surface::through(&self.corners).ok()?;

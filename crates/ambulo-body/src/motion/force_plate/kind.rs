@@ -1,8 +1,8 @@
 //! Types of force plates: converts channels to a wrench about the centre of the surface.
 //!
-//! Everything is in the axes of the plate: x from the side of corners 2 and 3 to that of corners 1 and 4, y from the
-//! side of corners 3 and 4 to that of 1 and 2, z = x × y, which points down in a plate in the floor. F is the force
-//! **on the foot**, M its moment about the centre of the surface, c the channels.
+//! Everything is in the axes of the plate: x from corners 2 and 3 to corners 1 and 4, y from corners 3 and 4 to corners
+//! 1 and 2, z = x × y, which points down in a plate in the floor. F is the force **on the foot**, M its moment about
+//! the centre of the surface, c the channels.
 //!
 //! | type | channels | F | M |
 //! |---|---|---|---|
@@ -22,7 +22,7 @@
 //!
 //! Source: C3D User Guide (Motion Lab Systems), pages on FORCE_PLATFORM:TYPE, ORIGIN, CHANNEL, CAL_MATRIX at c3d.org;
 //! types 3, 5, 6, 7: Visual3D's pages on FP_TYPE; type 5 as well: BTK's `ForcePlatformType5`. The moments are derived
-//! from M = Σ r × f. Visual3D's page on type 7 has signs of its own (Mz with +Fy23), which no rigid plate has.
+//! from M = Σ r × f. Visual3D's page on type 7 has other signs (Mz with +Fy23), which no rigid plate has.
 //! Pinned by: tests/force_plate.rs
 
 use crate::spatial::{Vec3, Wrench};

@@ -3,7 +3,7 @@
 //! With R the axes of the plate in the laboratory, C the centre of its surface, n the upward normal, and F, M the force
 //! and its moment about C in the plate's axes (kind.rs):
 //!
-//!   F_lab = R F          M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
+//!   F_lab = R F         M₀ = R M + C × R F          p = C + n × R M / (n · R F)          T = n · (R M - (p - C) × R F)
 //!
 //! | code                   | symbol | unit | meaning                                     |
 //! | `force`                | F_lab  | N    | of the plate on the foot                    |
@@ -38,7 +38,7 @@ use crate::spatial::{Mat3, Vec3};
 pub const CENTER_OF_PRESSURE_LOAD_N: f64 = 20.0;
 
 /// Forces and moments of one force plate. From a file they are in the axes of the laboratory;
-/// [`PlateRecording::rotated`] rotates them to those of the world.
+/// [`PlateRecording::rotated`] rotates them to world axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlateRecording {
     /// Name: `plate 1`, counted from 1 in the order of the file.
@@ -49,7 +49,7 @@ pub struct PlateRecording {
     pub times: Vec<f64>,
     /// Force of the plate on the foot [N], one entry per time.
     pub force: Vec<Vec3>,
-    /// Its moment about the origin of the axes [N.m].
+    /// Moment of the force about the origin of the axes [N.m].
     pub moment: Vec<Vec3>,
     /// Corners of the surface, in the order of the file [m].
     pub corners: [Vec3; 4],

@@ -36,8 +36,8 @@ impl PlateRecording {
         Some(PlateRecording { corners, center_from_sensors: turn * self.center_from_sensors, ..read })
     }
 
-    /// What the plate measured, turned about the vertical through its centre by this many quarters, to the left as seen
-    /// from above.
+    /// The recording of the plate, turned about the vertical through its centre by this many quarters, to the left as
+    /// seen from above.
     #[must_use]
     pub fn turned(&self, quarters: i32) -> PlateRecording {
         let up = self.up;
@@ -59,7 +59,7 @@ impl PlateRecording {
         })
     }
 
-    /// The plate with another unit in place of the one that was assumed: forces multiplied by a factor, and moments if
+    /// The plate with another unit in place of the assumed one: forces multiplied by a factor, and moments if
     /// they had the same unit.
     #[must_use]
     pub fn with_unit(&self, factor: f64) -> PlateRecording {

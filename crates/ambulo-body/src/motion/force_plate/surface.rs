@@ -2,8 +2,7 @@
 
 use crate::spatial::{Mat3, Vec3};
 
-/// Largest difference of opposite edges, as a share of the longer one; those of measured plates differ by less than 1
-/// %.
+/// Largest difference of opposite edges, as a share of the longer one; on measured plates it is below 1 %.
 const EDGE_MISMATCH: f64 = 0.2;
 /// Largest cosine between neighbouring edges (14 degrees off a right angle).
 const SKEW: f64 = 0.25;

@@ -66,7 +66,7 @@ fn refuse_if(
     if odd { Err(SegmentPoseError::Axes { what, found: shown(found), expected }) } else { Ok(()) }
 }
 
-/// Direction from the origin of a segment to that of its child, in the axes of the segment.
+/// Direction from the origin of a segment to the origin of its child, in the axes of the segment.
 fn direction(poses: &SegmentPoses, segment: PosedSegment, child: PosedSegment) -> Result<Vec3, SegmentPoseError> {
     let way = |frame: usize| {
         let [own, child] = [segment, child].map(|segment| poses.at(segment, frame));

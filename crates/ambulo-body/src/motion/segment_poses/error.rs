@@ -44,7 +44,7 @@ pub enum SegmentPoseError {
         first: u64,
         /// Number of the last frame.
         last: u64,
-        /// How many frames there are.
+        /// Number of frames found.
         found: usize,
     },
     /// Axes that fit no person.
@@ -55,9 +55,9 @@ pub enum SegmentPoseError {
     Axes {
         /// The point and its segment.
         what: String,
-        /// Where it is.
+        /// Place found.
         found: String,
-        /// Where it is in a person.
+        /// Place in a person.
         expected: &'static str,
     },
     /// Markers of a file without poses.

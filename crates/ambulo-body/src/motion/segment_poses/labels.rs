@@ -35,7 +35,7 @@ pub(super) fn segment_of(label: &str) -> Option<PosedSegment> {
     name.without_side().find_map(of)
 }
 
-/// Rejects poses without those of the legs; `labels` are all that the file has.
+/// Rejects files without poses of the legs; `labels` are all labels of the file.
 pub(super) fn check_complete(
     segments: &[(PosedSegment, Vec<Option<Pose>>)],
     labels: &[&str],
@@ -55,7 +55,7 @@ pub(super) fn check_complete(
 }
 
 /// `left thigh`.
-pub(super) fn in_words(segment: PosedSegment) -> String {
+pub(in crate::motion) fn in_words(segment: PosedSegment) -> String {
     let sided = |side: Side, word: &str| format!("{side} {word}");
     match segment {
         PosedSegment::Pelvis => "pelvis".to_owned(),

@@ -3,12 +3,12 @@
 //!
 //! Each segment has its origin in the joint to its parent: the thigh in the hip, the shank in the knee, the foot in the
 //! ankle, the toes in the ball of the foot, the upper arm in the shoulder. The axes of a [`SegmentPoses`] are x
-//! forward, y up and z right of a person who stands upright with hanging arms and palms forward; those of a file are
+//! forward, y up and z right of a person who stands upright with hanging arms and palms forward; the axes of a file are
 //! found from the geometry (`axes.rs`): the knee is below the hip in the thigh, and the right hip is to the right in
 //! the pelvis. Theia3D writes x right, y forward, z up.
 //!
 //! [`SegmentPoses::points`] are the joint centres, and points next to them that show the orientation of the segments,
-//! with the names of [`crate::motion::skeleton`]. Heel and tip of the toes are those of the group THEIA3D, where the
+//! with the names of [`crate::motion::skeleton`]. Heel and tip of the toes come from the group THEIA3D, where the
 //! file has it: `l_heel` is a point of the foot [m], and `LTO` the length of the toes [m] (meaning of `LTO` unverified;
 //! 61 and 65 mm in the one file that was seen).
 //!
@@ -23,6 +23,7 @@ mod labels;
 mod xsens;
 
 pub use error::SegmentPoseError;
+pub(super) use labels::in_words;
 pub use xsens::{events_from_mvnx, segment_poses_from_mvnx};
 
 use super::guessed_unit::unit_of_frames;

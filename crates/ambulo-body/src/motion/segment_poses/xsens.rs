@@ -88,7 +88,7 @@ pub fn events_from_mvnx(mvnx: &Mvnx) -> Vec<Event> {
     events
 }
 
-/// Numbers of all frames from the first to the last, with those that the file lacks.
+/// Numbers of all frames from the first to the last, including missing ones.
 fn frame_numbers(mvnx: &Mvnx) -> Result<Vec<u64>, SegmentPoseError> {
     let (Some(first), Some(last)) = (mvnx.frames.first(), mvnx.frames.last()) else {
         return Err(SegmentPoseError::NeverSeen);
@@ -100,7 +100,7 @@ fn frame_numbers(mvnx: &Mvnx) -> Result<Vec<u64>, SegmentPoseError> {
     Ok((first..=last).collect())
 }
 
-/// The poses of one segment; `None` in frames that the file lacks.
+/// The poses of one segment; `None` in frames that are missing in the file.
 fn path(mvnx: &Mvnx, place: usize, segment: PosedSegment, numbers: &[u64]) -> Vec<Option<Pose>> {
     let turn = hanging(segment);
     let mut path = vec![None; numbers.len()];
@@ -117,7 +117,7 @@ fn pose_of(pose: &MvnxPose, turn: &Mat3) -> Pose {
     Pose { rotation: rotation * turn, translation: Vec3::from(pose.position) }
 }
 
-/// Turn from the axes of the T-pose to those of hanging arms with palms forward.
+/// Rotation from the axes of the T-pose to the axes with hanging arms and palms forward.
 fn hanging(segment: PosedSegment) -> Mat3 {
     let outward = |side: Side| if side == Side::Right { 1.0 } else { -1.0 };
     let down = |side: Side| rotation_about(Vec3::x(), -outward(side) * FRAC_PI_2);
@@ -135,7 +135,7 @@ fn foot_point(mvnx: &Mvnx, side: Side, segment: &str, point: &str) -> Option<[f6
     mvnx.point(&format!("{word}{segment}"), &format!("p{word}{point}"))
 }
 
-/// Whether a segment turns with the pelvis in every frame: MVN writes it so if it had no sensor.
+/// Whether a segment turns with the pelvis in every frame, as MVN writes segments without a sensor.
 fn turns_with_pelvis(poses: &SegmentPoses, segment: PosedSegment) -> bool {
     let back = hanging(segment).transpose();
     let apart = |frame: usize| {

@@ -65,7 +65,7 @@ pub struct SkeletonRecording {
     pub statement: String,
     /// Length of the unit of the file [m].
     pub metres_per_unit: f64,
-    /// Rotation from the axes of the file to those of the world.
+    /// Rotation from the axes of the file to world axes.
     pub world_from_file: Mat3,
     /// The given stature, or the one estimated from the legs [m].
     pub height_m: f64,
@@ -86,7 +86,7 @@ pub fn skeleton_from_bvh(
     Ok(Interpreted::new(bvh, height_m, findings)?.recording(name, findings))
 }
 
-/// How a skeleton is read: which of its joints are those of the body, its unit, its axes and the recorded points.
+/// How a skeleton is read: which of its joints are joints of the body, its unit, its axes and the recorded points.
 struct Interpreted<'b> {
     skeleton: Skeleton<'b>,
     body_joints: BodyJoints,

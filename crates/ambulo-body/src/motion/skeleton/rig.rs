@@ -2,10 +2,10 @@
 //!
 //! In every frame it is known by which rotation C each segment of the body was turned away from the recorded posture
 //! (in the axes of the file), and by how much mid-hip was moved. The joint of the segment, with the orientation R in
-//! the file, then has the orientation C R; its own rotation follows from that of its parent, P' say: P'ᵀ C R. All other
-//! joints (fingers, face, props, twist bones, the upper spine) keep their own rotation and so follow the joint that
-//! carries them. What the body does not represent, such as a bent spine, is kept as recorded. The nearest joint from
-//! the pelvis to the root that has position channels moves mid-hip.
+//! the file, then has the orientation C R; its own rotation follows from the orientation P' of its parent: P'ᵀ C R. All
+//! other joints (fingers, face, props, twist bones, the upper spine) keep their own rotation and so follow the joint
+//! that carries them. What the body does not represent, such as a bent spine, is kept as recorded. The nearest joint
+//! from the pelvis to the root that has position channels moves mid-hip.
 //!
 //! | segment | joint |
 //! |---|---|
@@ -53,13 +53,13 @@ pub struct Rig<'b> {
 pub struct RiggedMotion {
     /// The skeleton of the file with the changed frames.
     pub bvh: Bvh,
-    /// By how much its motion differs from that of the file.
+    /// Differences between its motion and the motion in the file.
     pub differences: RigDifferences,
     /// The part of the change that the skeleton cannot store.
     pub limits: RigLimits,
 }
 
-/// Differences between a changed motion and that of the file.
+/// Differences between a changed motion and the motion in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigDifferences {
     /// RMS angle by which the joints of the segments were turned [rad].

@@ -1,8 +1,8 @@
 //! Directions of upright standing (up, forward, right) in the axes of each joint.
 //!
-//! In the resting pose of a file (all channels zero) all axes are those of the file. If this pose is upright, it
+//! In the resting pose of a file (all channels zero) all joints have the axes of the file. If this pose is upright, it
 //! shows the orientation of pelvis, thigh, shank and foot in standing. Otherwise (skeletons whose bones all lie along
-//! one axis) a calibration pose is looked for among the frames: straight legs, and straight arms to both sides, level
+//! one axis) a calibration pose is searched for among the frames: straight legs, and straight arms to both sides, level
 //! (T) or half lowered (A), which does not happen by chance in walking. Without one the directions are averaged over
 //! the recording, in the axes of each joint.
 
@@ -94,7 +94,7 @@ impl UprightPosture {
     }
 
     /// The horizontal direction of a bone and the direction to its right, unit vectors in the axes of the joint. For a
-    /// vertical bone, those of upright standing.
+    /// vertical bone, the directions of upright standing.
     pub(super) fn along_foot(&self, joint: usize, bone: Vec3) -> [Vec3; 2] {
         let up = self.up(joint);
         let level = bone - up * bone.dot(&up);

@@ -106,7 +106,7 @@ impl Ledger {
         Ok(ledger)
     }
 
-    /// Writes the description, or compares it with the one that is there.
+    /// Writes the description, or compares it with the existing one.
     fn agree(&self, path: &Path, description: &Description) -> Result<()> {
         // Beside the lock: after a kill the folder is still one without other files.
         let own = place_of_lock(&self.folder, self.shard).join(BATCH);
@@ -233,8 +233,8 @@ impl Ledger {
 
     /// Writes the tables of a part; the trials are last and close it.
     ///
-    /// The columns of frames are those of the trials. A part without results would have a file without them, which
-    /// Spark and polars do not read together with the others: it has none.
+    /// The columns of frames come from the trials. A part without results would have a file without them, which Spark
+    /// and polars do not read together with the others; so such a part has no file.
     pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
         let PartTables { trials, frames, cycles, events } = tables;
         for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {

@@ -111,7 +111,7 @@ fn planned(args: &BatchArgs, threads: usize) -> Result<(PathBuf, Plan)> {
     }
 }
 
-/// `trials` are those of all shards.
+/// `trials` are the trials of all shards.
 fn description(args: &BatchArgs, of_trials: &TrialWords, trials: &[PlannedTrial]) -> Description {
     let names: Vec<&str> = trials.iter().map(|trial| trial.name.as_str()).collect();
     Description {
@@ -178,7 +178,7 @@ impl Batch<'_> {
             self.say(computed, in_part.fetch_add(1, Ordering::Relaxed) + 1);
             found
         });
-        // A trial that was stopped has an error that is none of its own.
+        // The error of a stopped trial is not an error of the trial.
         if self.work.caller.is_stopped() {
             bail!("the batch was stopped; the parts that are closed are kept. hint: --resume continues");
         }
@@ -189,8 +189,8 @@ impl Batch<'_> {
         Ok(rows_of(&tables.trials))
     }
 
-    /// Says how many trials are done, at which rate, and how long the rest takes. This run has computed `computed` of
-    /// the `done` ones.
+    /// Reports how many trials are done, at which rate, and how long the rest takes. This run has computed `computed`
+    /// of the `done` ones.
     fn say(&self, computed: usize, done: usize) {
         let rate = computed as f64 / self.begun.elapsed().as_secs_f64().max(1e-9);
         let left_s = self.all.saturating_sub(done) as f64 / rate;

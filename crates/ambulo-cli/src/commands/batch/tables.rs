@@ -23,7 +23,7 @@ pub(super) struct PartTables {
 }
 
 /// Numbers of the summary in the table of trials: column, place in the summary.
-const NUMBERS: [(&str, &str); 10] = [
+const NUMBERS: [(&str, &str); 21] = [
     ("mass_kg", "/mass_kg"),
     ("height_m", "/height_m"),
     ("speed_m_s", "/speed_m_s"),
@@ -32,8 +32,19 @@ const NUMBERS: [(&str, &str); 10] = [
     ("rate_hz", "/rate_hz"),
     ("residual_force_bw", "/residual/force_rms_bw"),
     ("residual_moment_nm", "/residual/moment_rms_nm"),
+    ("measured_share_r", "/ground/measured_share/right"),
+    ("measured_share_l", "/ground/measured_share/left"),
     ("judged_share", "/verdict/judged_share"),
     ("marker_error_mm", "/subject/markers/rms_mm"),
+    ("marker_error_legs_mm", "/subject/markers/regions/legs/rms_mm"),
+    ("marker_error_trunk_mm", "/subject/markers/regions/trunk/rms_mm"),
+    ("marker_error_arms_mm", "/subject/markers/regions/arms/rms_mm"),
+    ("knee_adduction_first_peak_r_nm_kg", "/knee_adduction_moment/0/right/mean"),
+    ("knee_adduction_first_peak_l_nm_kg", "/knee_adduction_moment/0/left/mean"),
+    ("knee_adduction_second_peak_r_nm_kg", "/knee_adduction_moment/1/right/mean"),
+    ("knee_adduction_second_peak_l_nm_kg", "/knee_adduction_moment/1/left/mean"),
+    ("knee_adduction_impulse_r_nms_kg", "/knee_adduction_moment/2/right/mean"),
+    ("knee_adduction_impulse_l_nms_kg", "/knee_adduction_moment/2/left/mean"),
 ];
 /// Texts of the summary in the table of trials.
 const TEXTS: [(&str, &str); 8] = [
@@ -58,7 +69,8 @@ pub(super) fn part_tables(rows: &[Row<'_>], about: &[(String, String)]) -> PartT
 }
 
 /// Units of the table of trials whose names do not end with them.
-const TRIAL_UNITS: [(&str, &str); 1] = [("unit of judged_share", "1")];
+const TRIAL_UNITS: [(&str, &str); 3] =
+    [("unit of judged_share", "1"), ("unit of measured_share_r", "1"), ("unit of measured_share_l", "1")];
 
 fn with(about: &[(String, String)], more: &[(&str, &str)]) -> Vec<(String, String)> {
     let more = more.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));

@@ -43,7 +43,7 @@ pub(super) struct Work {
     pub(super) hashes: Mutex<BTreeMap<PathBuf, String>>,
 }
 
-/// The identity of a trial: what it is made of, wherever the files lie.
+/// The identity of a trial: the content of its files and its settings, independent of the folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Key {
     /// SHA-256 of version, options and the content of all files.
@@ -77,8 +77,10 @@ impl Work {
         let files = &trial.files;
         let words = self.options.apart();
         let of_words = words.iter().map(Path::new).filter(|path| path.is_file());
-        let named =
-            [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
+        let named = [&files.standing, &files.functional, &files.model, &files.grf, &files.loads]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path);
         let shown = |path: &Path| {
             let path = path.strip_prefix(&self.root).unwrap_or(path);
             path.display().to_string().replace('\\', "/")

@@ -1,4 +1,4 @@
-//! Every trial of an AddBiomechanics subject (`.b3d`), each into a folder of its own.
+//! Every trial of an AddBiomechanics subject (`.b3d`), each into a separate folder.
 
 use super::run_one;
 use crate::Completion;

@@ -1,11 +1,12 @@
 //! A job as the text that the id of its run is made from.
 //!
-//! The form is that of all earlier runs, whose ids would change with it. Outputs and printing are left out where they
+//! The form must not change: the ids of earlier runs depend on it. Outputs and printing are left out where they
 //! do not matter.
 
 use crate::args::Outputs;
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Job, ModelChoice};
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::{AddedMass, GroundSettings};
 use std::fmt::{Debug, Formatter, Result};
 use std::path::PathBuf;
@@ -90,8 +91,17 @@ impl Debug for Person<'_> {
             .field("marker_set", &job.marker_set)
             .field("plate", &job.plates)
             .field("fit", &job.settings.fit)
-            .field("max_gap", &job.settings.longest_gap_s)
-            .finish()
+            .field("max_gap", &job.settings.longest_gap_s);
+        if job.settings.hip != HipRegression::default() {
+            fields.field("hip", &job.settings.hip);
+        }
+        if job.settings.knee_axis != KneeAxis::default() {
+            fields.field("knee_axis", &job.settings.knee_axis);
+        }
+        if let Some(functional) = &job.functional {
+            fields.field("functional", functional);
+        }
+        fields.finish()
     }
 }
 

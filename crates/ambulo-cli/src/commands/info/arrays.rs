@@ -9,7 +9,7 @@ use std::path::Path;
 
 pub(super) fn describe(path: &Path, bytes: &[u8]) -> Result<Sheet> {
     let shapes = Npz::shapes(bytes)?;
-    // Of large arrays only those of a motion are read.
+    // Large arrays are read only if they belong to a motion.
     let is_short = |name: &str| shapes.array(name).is_some_and(|array| array.shape.iter().product::<usize>() <= 1);
     let motion = SmplMotion::check_shapes(&shapes);
     let is_motion = motion.is_ok();

@@ -1,7 +1,7 @@
 //! Results without names, paths and dates of a person.
 //!
 //! Names are left out where the results have a place for them, and replaced in sentences: every file name of the visit,
-//! its folder, every part of its path, the names in trials.toml, those in the recordings, and those of models from
+//! its folder, every part of its path, the names in trials.toml, in recordings and of models from
 //! files.
 
 use super::Finished;
@@ -22,8 +22,8 @@ pub(super) struct Anonymous {
 }
 
 impl Anonymous {
-    /// The names to replace: those of the folder, of the files of its trials, `names`, which were read from the
-    /// recordings, and those of models.
+    /// The names to replace: of the folder, of the files of its trials, `names`, which were read from the recordings,
+    /// and of models.
     pub(super) fn of(folder: &Path, plan: &Plan, names: &[String], models: &[String]) -> Anonymous {
         let mut replaced: Vec<(String, String)> = Vec::new();
         for (k, trial) in plan.trials.iter().enumerate() {
@@ -31,8 +31,9 @@ impl Anonymous {
             add_file(&mut replaced, &trial.files.recording, &label);
             replaced.push((trial.name.clone(), label));
             replaced.push((trial.person.clone(), "the person".to_owned()));
-            let others = [&trial.files.standing, &trial.files.model, &trial.files.grf, &trial.files.loads];
-            let words = ["the standing trial", "the model", "the table of forces", "the loads"];
+            let files = &trial.files;
+            let others = [&files.standing, &files.functional, &files.model, &files.grf, &files.loads];
+            let words = ["the standing trial", "the movement", "the model", "the table of forces", "the loads"];
             for (file, word) in others.into_iter().zip(words) {
                 file.iter().for_each(|file| add_file(&mut replaced, file, word));
             }

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &SessionArgs) -> Result<Completion> {
     compute(args, &args.of_trials()?, &Caller::default())
 }
 
-/// Computes a session into its folder. A caller that stops it leaves the folder as it was.
+/// Computes a session into its folder. If the caller stops it, the folder does not change.
 pub(crate) fn compute(args: &SessionArgs, of_trials: &TrialWords, caller: &Caller) -> Result<Completion> {
     let threads = args.jobs.map_or_else(processors, |jobs| jobs as usize);
     let (root, mut plan) = visit::of(&args.source, threads)?;
@@ -176,7 +176,7 @@ fn save(
     Ok(summary)
 }
 
-/// SHA-256 of the recordings, sorted; those that cannot be read have none.
+/// SHA-256 of the readable recordings, sorted.
 fn hashes(trials: &[&PlannedTrial]) -> Vec<String> {
     let mut hashes: Vec<String> = trials.iter().filter_map(|trial| hash_of_file(&trial.files.recording).ok()).collect();
     hashes.sort();
@@ -206,7 +206,10 @@ fn nothing_counts(root: &Path, session: &Session) -> String {
 fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
     let of_trial = |trial: &PlannedTrial| {
         let files = trial.files.clone();
-        [files.standing, files.model, files.grf, files.loads].into_iter().flatten().chain([files.recording])
+        [files.standing, files.functional, files.model, files.grf, files.loads]
+            .into_iter()
+            .flatten()
+            .chain([files.recording])
     };
     let others = args.norm.iter().filter(|path| path.is_file()).cloned();
     let mut all: Vec<_> =

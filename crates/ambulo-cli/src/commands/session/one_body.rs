@@ -27,7 +27,7 @@ pub(super) struct Visit<'a> {
 }
 
 impl Visit<'_> {
-    /// Computes all trials; reports each one that is begun, the first time that it is.
+    /// Computes all trials; reports the first start of each.
     pub(super) fn compute(&self, said: &(dyn Fn(usize) + Sync)) -> ComputedVisit<MotionRun> {
         let mut is_first = true;
         visit::compute(self.root, self.trials, &mut |runs| {

@@ -1,5 +1,5 @@
-//! Sessions that were computed before: the one to compare with, those of a reference group, and one that lies where
-//! this one is to be written.
+//! Sessions that were computed before: the session to compare with, sessions of a reference group, and one that lies
+//! where this one is to be written.
 
 use super::{Computing, visit};
 use crate::args::{Existing, SessionArgs};
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The keys by which the summary of a session differs from that of other results.
+/// The keys by which the summary of a session differs from summaries of other results.
 #[derive(Deserialize)]
 struct Head {
     session_format: Option<u32>,

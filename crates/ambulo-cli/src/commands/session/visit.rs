@@ -113,7 +113,7 @@ pub(super) fn check_standing(folder: &Path, plan: &Plan, trials: &[&PlannedTrial
     Ok(())
 }
 
-/// Whether a recording lies in the folder of one of the trials.
+/// Whether a recording is in the folder of one of the trials.
 fn is_beside(name: &str, trials: &[&PlannedTrial]) -> bool {
     let folder = |name: &str| name.rsplit_once('/').map_or(String::new(), |(folder, _)| folder.to_owned());
     trials.iter().any(|trial| folder(&trial.name) == folder(name))

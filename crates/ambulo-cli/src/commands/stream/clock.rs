@@ -1,18 +1,18 @@
 //! Times of frames: from a time to the number of a frame, whatever the unit of the times.
 //!
 //! Frames come at the stated rate, so that times differ by whole periods, mostly by one. Times that always differ by a
-//! thousand periods are in milliseconds, and so on; times that always differ by another number than one are those of
+//! thousand periods are in milliseconds, and so on; times that always differ by another number of periods than one have
 //! another rate.
 
 /// Units of times by their seconds, and how many of them a second has.
 const UNITS: [(&str, f64); 3] = [("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", 1e9)];
 /// Intervals that show a unit differ by less than this from one another.
 const NEAR: f64 = 0.25;
-/// An interval longer than so many usual ones has a lost frame.
+/// An interval that is longer than the usual one by this factor has a lost frame.
 const LOSS: f64 = 1.75;
 /// Equal intervals that show a unit; fewer may be two losses.
 const ENOUGH_FOR_UNIT: usize = 2;
-/// Intervals of which most must show another rate; of equal intervals fewer are enough.
+/// Number of intervals most of which must have another rate; fewer equal intervals are enough.
 const ENOUGH_FOR_RATE: usize = 20;
 const ENOUGH_EQUAL: usize = 5;
 /// Intervals without jitter differ by less.
@@ -22,12 +22,12 @@ const OTHER_RATE: f64 = 0.05;
 /// Largest number of a frame.
 const LARGEST: f64 = 9e15;
 
-/// What the times of frames show.
+/// Unusual times of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ClockDoubt {
-    /// They are in another unit, which is used from now on.
+    /// The times have another unit, which is used from now on.
     Unit(&'static str),
-    /// They are those of another rate [Hz].
+    /// The times have another rate [Hz].
     Rate(f64),
 }
 
@@ -50,13 +50,13 @@ impl Clock {
         Clock { rate_hz, per_second: 1.0, last: None, intervals: Vec::new(), is_judged: false }
     }
 
-    /// Whether the rate of the times is known, so that losses can be told from another rate.
+    /// Whether the rate of the times is known, so that losses and another rate can be distinguished.
     #[must_use]
     pub fn is_judged(&self) -> bool {
         self.is_judged
     }
 
-    /// The number of the frame at a time; `None` if there is none.
+    /// The number of the frame at a time; `None` if no frame has this time.
     #[must_use]
     pub fn number(&self, time: f64) -> Option<u64> {
         let number = (time / self.per_second * self.rate_hz).round();

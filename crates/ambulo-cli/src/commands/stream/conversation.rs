@@ -17,13 +17,13 @@ use anyhow::{Result, anyhow, bail};
 
 /// A longer gap restarts the stream [s], as in the library.
 const LONGEST_GAP_S: f64 = 0.2;
-/// A number that lies farther back begins a new sequence [s].
+/// A number that is further back than this begins a new sequence [s].
 const NEW_SEQUENCE_S: f64 = 1.0;
-/// So many frames with numbers in order after the last one begin a new sequence: at its first number or zero, and at
+/// Number of frames with numbers in order after which a new sequence begins: at its first number or zero, and at
 /// another number, where they may be repeated or late ones.
 const RUN_FROM_THE_FIRST: usize = 2;
 const RUN: usize = 5;
-/// So many notices of a kind are printed; all are counted and, as JSON, answered.
+/// Printed notices of each kind; all notices are counted and, with JSON, sent as answers.
 const PRINTED: u64 = 5;
 
 /// Content of a sender's frames.
@@ -38,11 +38,11 @@ enum Naming {
     /// Not yet: frames have everything of the model, in its units.
     Unsaid,
     Said,
-    /// It tried, but that line was refused: frames may have anything.
+    /// The line that described the frames was refused: frames may have any values.
     Refused,
 }
 
-/// A frame whose number lies before the last one: repeated, late, or the beginning of a new sequence, which the frames
+/// A frame whose number is before the last one: repeated, late, or the beginning of a new sequence, which the frames
 /// after it show.
 struct Held {
     number: u64,
@@ -55,7 +55,7 @@ struct Held {
 struct Counts {
     frames: u64,
     results: u64,
-    /// Of each kind of notice.
+    /// Number of notices of each kind.
     notices: Vec<(&'static str, u64)>,
     /// Why the first message was refused.
     first_refusal: Option<String>,
@@ -69,7 +69,7 @@ pub(super) struct Conversation<'a> {
     clock: Clock,
     /// Notices about lost and repeated frames that wait until the rate of the times is known; `None` once it is.
     undecided: Option<Vec<(&'static str, u64, String)>>,
-    /// Whether the times are those of another rate, so that regular losses are no news.
+    /// Whether the times have another rate, so that regular losses are not reported again.
     is_other_rate: bool,
     held: Vec<Held>,
     /// Number of the sender for frame 0 of the stream.
@@ -84,7 +84,7 @@ pub(super) struct Conversation<'a> {
     /// Answers that were not sent yet.
     pub(super) out: Vec<u8>,
     counts: Counts,
-    /// Why nothing that came could be used; known at the end.
+    /// Why no message could be used; known at the end.
     unused: Option<String>,
 }
 
@@ -215,7 +215,7 @@ impl<'a> Conversation<'a> {
         self.survive(taken)
     }
 
-    /// Says what was wrong; only a model that no frame can be computed of is an error.
+    /// Reports an error of a frame and goes on; only a model with which no frame can be computed ends the stream.
     fn survive(&mut self, done: Result<()>) -> Result<()> {
         match done {
             Err(error) if error.downcast_ref().is_some_and(is_of_the_model) => Err(error),
@@ -263,7 +263,7 @@ impl<'a> Conversation<'a> {
         self.use_frame(number, &values)
     }
 
-    /// Keeps a frame whose number lies before the last one, until it is known whether a new sequence has begun.
+    /// Keeps a frame whose number is before the last one, until it is known whether a new sequence has begun.
     fn hold(&mut self, held: Held) -> Result<()> {
         if self.held.last().is_some_and(|last| last.number + 1 != held.number) {
             self.give_up_held();
@@ -369,7 +369,7 @@ impl<'a> Conversation<'a> {
         Ok(())
     }
 
-    /// Reports the losses that waited, unless the times are those of another rate.
+    /// Reports the losses that waited, unless the times have another rate.
     fn decide(&mut self) {
         for (kind, frame, message) in self.undecided.take().unwrap_or_default() {
             self.loss(kind, frame, message);
@@ -553,7 +553,8 @@ impl<'a> Conversation<'a> {
         }
     }
 
-    /// Says something about the frames: a few times on standard error, always in the answers that have room for words.
+    /// Reports a notice about the frames: a few times on standard error, always in answers of formats that have
+    /// notices.
     pub(super) fn notice(&mut self, kind: &'static str, frame: Option<u64>, message: String) {
         let counted = match self.counts.notices.iter_mut().find(|(other, _)| *other == kind) {
             Some((_, count)) => {

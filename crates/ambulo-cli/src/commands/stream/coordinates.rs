@@ -1,4 +1,4 @@
-//! Frames of coordinates: which value belongs to which coordinate, and in which unit.
+//! Frames of coordinates: the coordinate and the unit of each value.
 
 use super::formats::{AngleUnit, Message};
 use ambulo::model::{CoordinateKind, Model};
@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 /// No angle and no place of a person is larger [rad or m]; glitches of a sender are.
 const LARGEST: f64 = 1e4;
 
-/// A value of a frame: the coordinate of the model that it belongs to, and its unit in that of the model.
+/// A value of a frame: its coordinate in the model, and its unit in units of the model.
 #[derive(Debug, Clone, Copy)]
 struct Slot {
     coordinate: usize,
@@ -40,7 +40,7 @@ impl CoordinateFrames {
     /// Sets which values a frame has, and their units. Returns the names of the other coordinates.
     ///
     /// # Errors
-    /// A name that the model does not have, or a name twice; nothing is changed then.
+    /// A name that the model does not have, or a repeated name; the state then does not change.
     pub(super) fn name_values(&mut self, model: &Model, message: &Message) -> Result<Vec<String>> {
         let coordinates: Vec<usize> = match &message.coordinates {
             None => self.slots.iter().map(|slot| slot.coordinate).collect(),
@@ -65,7 +65,7 @@ impl CoordinateFrames {
     /// One value per coordinate of the model, not-a-number where it is missing.
     ///
     /// # Errors
-    /// Another number of values, one that is larger than any of a person.
+    /// Another number of values, or a value that is larger than possible for a person.
     pub(super) fn in_model_order(&self, model: &Model, values: &[Option<f64>]) -> Result<Vec<f64>> {
         let expected = self.slots.len();
         if values.len() != expected {

@@ -15,9 +15,9 @@ pub struct Message {
     pub angles: Option<AngleUnit>,
     /// Number of the frame.
     pub frame: Option<u64>,
-    /// Its time [s].
+    /// Time of the frame [s].
     pub(super) time: Option<f64>,
-    /// Its values; missing ones are null, or not-a-number in a record.
+    /// Values of the frame; missing ones are null, or not-a-number in a record.
     pub q: Option<Vec<Option<f64>>>,
     /// Names of the markers, or their positions in a frame.
     pub(super) markers: Option<Markers>,
@@ -45,7 +45,7 @@ impl Message {
         self.coordinates.is_some() || self.angles.is_some()
     }
 
-    /// Whether the message says anything.
+    /// Whether the message has content.
     pub(super) fn has_content(&self) -> bool {
         self.names_coordinates() || self.names_markers() || self.q.is_some() || self.markers.is_some()
     }
@@ -111,7 +111,7 @@ pub(crate) struct MarkerDescription {
     pub(crate) axes: LabAxes,
 }
 
-/// A message of the command besides the description.
+/// A message of the command other than the description.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub(super) enum Answer {
@@ -120,7 +120,7 @@ pub(super) enum Answer {
         time: f64,
         values: Vec<f32>,
     },
-    /// Something to know about the frames.
+    /// A notice about the frames.
     Notice {
         notice: &'static str,
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -149,7 +149,7 @@ pub fn from_json(line: &[u8]) -> Result<Message> {
     })
 }
 
-/// Bytes of a record with so many values.
+/// Bytes of a record with this number of values.
 #[must_use]
 pub fn record_bytes(values: usize) -> usize {
     4 * (values + 1)

@@ -1,12 +1,12 @@
-//! The text of a line, whatever program wrote it: byte order marks, UTF-16, numbers that are not.
+//! The text of a line from any program: byte order marks, UTF-16, words for not-a-number.
 
 use std::borrow::Cow;
 
-/// The mark at the beginning of UTF-8, and those of UTF-16.
+/// The byte order marks at the beginning of UTF-8 and UTF-16.
 const MARKS: [&[u8]; 3] = [b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff"];
 
 /// A line as UTF-8 without a byte order mark. A line of UTF-16, as pipes of PowerShell write it, has the two bytes of
-/// its end cut apart, so its letters are told by the zeros between them; text of UTF-8 has no zeros.
+/// its end cut apart, so it is recognised by the zeros between its letters; text of UTF-8 has no zeros.
 #[must_use]
 pub fn text(line: &[u8]) -> Cow<'_, [u8]> {
     let marked = MARKS.iter().find_map(|mark| line.strip_prefix(*mark)).unwrap_or(line);

@@ -1,4 +1,4 @@
-//! Where messages come from and answers go.
+//! Inputs of messages and outputs of answers: standard streams, TCP and UDP.
 
 use super::line_text::is_http;
 use super::patient::{Patient, is_over};
@@ -13,14 +13,14 @@ use std::time::{Duration, Instant};
 const LONGEST_LINE: u64 = 1 << 20;
 /// Largest datagram [bytes].
 const LARGEST_DATAGRAM: usize = 1 << 16;
-/// Senders of datagrams at a time; of more, the one that was silent for the longest time is ended.
+/// Most senders of datagrams at a time; with more, the conversation that was silent longest is ended.
 const MOST_SENDERS: usize = 8;
 
 /// Takes messages from one sender until there are no more.
 ///
 /// # Errors
 /// A link that cannot be read or written, a line without end, a request of HTTP, a model that cannot be streamed. A
-/// receiver that has closed its end is none, nor is a sender that was silent for too long.
+/// receiver that has closed its end is no error, nor is a sender that was silent for too long.
 pub(super) fn serve(
     input: &mut impl BufRead,
     output: &mut impl Write,
@@ -49,7 +49,7 @@ pub(super) fn serve(
     Ok(())
 }
 
-/// What was read.
+/// Result of reading.
 enum Taken {
     Message,
     /// The time for a message was over.
@@ -103,7 +103,7 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     loop {
         let (connection, peer) = match listener.accept() {
             Ok(accepted) => accepted,
-            // It was gone before it was accepted.
+            // The connection was closed before it was accepted.
             Err(error) if is_gone(error.kind()) => continue,
             Err(error) => return Err(error).context("connections cannot be accepted"),
         };
@@ -119,7 +119,7 @@ pub(super) fn serve_tcp(setup: &Setup<'_>, address: SocketAddr) -> Result<()> {
     }
 }
 
-/// Serves a connection until it ends, or is silent or reads nothing for the longest time.
+/// Serves a connection until it ends, or until it has neither sent nor read for the longest time.
 fn serve_connection(setup: &Setup<'_>, connection: &TcpStream) -> Result<()> {
     let idle = Some(Duration::from_secs_f64(setup.args.idle)).filter(|idle| !idle.is_zero());
     // Every answer is sent at once, without waiting for more; where that cannot be chosen, answers come later.

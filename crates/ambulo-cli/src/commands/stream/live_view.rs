@@ -84,7 +84,7 @@ pub(super) fn state(server: &PageServer, state: &str, message: &str) {
     server.publish_first("state", &serde_json::to_string(&shown).unwrap_or_default());
 }
 
-/// Position and orientation of every body; nothing if a coordinate is missing.
+/// Position and orientation of every body; empty if a coordinate is missing.
 fn poses(model: &Model, q: &[f64]) -> Vec<f32> {
     if q.iter().any(|value| !value.is_finite()) {
         return Vec::new();

@@ -15,7 +15,7 @@ const LOST_M: f64 = 0.1;
 
 /// Postures in which a person is upright or not [s].
 const JUDGED_S: f64 = 0.5;
-/// Nobody walks with the pelvis inclined by more than 60 degrees.
+/// Cosine of the largest inclination of the pelvis in walking: 60 degrees.
 const LYING_COSINE: f64 = 0.5;
 
 /// Factors of positions in millimetres or centimetres that are stated as metres, and of those in centimetres or metres
@@ -44,7 +44,7 @@ pub(super) struct MarkerFrames {
     attached: Vec<Option<(BodyId, Vec3)>>,
     /// Positions of one frame, in the axes of the model [m].
     positions: Vec<Vec3>,
-    /// What positions are multiplied with because the stated unit is not theirs; `None` before that is known.
+    /// Factor that corrects positions whose stated unit is wrong; `None` until it is determined.
     correction: Option<f64>,
     /// Cosines of the angle from upright of the first postures, until they are judged.
     upright: Option<Vec<f64>>,
@@ -93,7 +93,7 @@ impl MarkerFrames {
     /// markers that only model or stream have.
     ///
     /// # Errors
-    /// A name twice, or none that the model has; nothing is changed then.
+    /// A repeated name, or no name of the model; the state then does not change.
     pub(super) fn name_markers(&mut self, model: &Model, message: &Message) -> Result<Option<String>> {
         let mut findings = Findings::default();
         if let Some(names) = message.marker_names() {

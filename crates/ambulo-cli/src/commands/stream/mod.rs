@@ -2,7 +2,7 @@
 //!
 //! One thread reads a message, computes and answers before it reads the next one, so that nothing piles up: a sender
 //! that is too fast waits (TCP, pipes) or loses datagrams (UDP), which the numbers of the frames show. The live page
-//! has threads of its own, for which this one never waits.
+//! has separate threads, for which this one never waits.
 
 pub(crate) mod clock;
 mod conversation;

@@ -1,6 +1,6 @@
 //! Order of frames by their numbers: missing, repeated and late frames, and new sequences.
 
-/// How many of the last numbers are remembered, to distinguish a repeated frame from a late one.
+/// Number of last frames that are remembered, to distinguish a repeated frame from a late one.
 const REMEMBERED: u64 = 64;
 
 /// Place of a frame in its sequence.
@@ -8,9 +8,9 @@ const REMEMBERED: u64 = 64;
 pub enum Place {
     /// The expected frame.
     Next,
-    /// So many frames before it are missing.
+    /// This number of frames before it are missing.
     After(u64),
-    /// It was received before.
+    /// The frame was received before.
     Doubled,
     /// A later frame was already used.
     Late,
@@ -23,7 +23,7 @@ pub enum Place {
 pub struct Numbering {
     /// The greatest received number; `None` before the first frame.
     last: Option<u64>,
-    /// Which of the [`REMEMBERED`] numbers up to the last one came, the last one in the lowest bit.
+    /// Received numbers among the [`REMEMBERED`] ones up to the last, one bit each; the last number in the lowest bit.
     came: u64,
 }
 
@@ -33,7 +33,7 @@ impl Numbering {
         self.last.map_or(0, |last| last.saturating_add(1))
     }
 
-    /// Adds a number. A number that lies more than `far` before the expected one begins a new sequence.
+    /// Adds a number. A number that is more than `far` before the expected one begins a new sequence.
     pub fn place(&mut self, number: u64, far: u64) -> Place {
         let Some(last) = self.last else {
             self.begin(number);

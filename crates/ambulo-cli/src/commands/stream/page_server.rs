@@ -123,7 +123,7 @@ impl PageServer {
         }
     }
 
-    /// How many events wait for a browser.
+    /// Number of events that wait for a browser.
     #[must_use]
     pub fn waiting(&self) -> usize {
         self.waiting.load(Ordering::Relaxed)
@@ -166,7 +166,7 @@ impl PageServer {
             audience.queues.push(sender);
         }
         let sent = self.send_queue(connection, &queue);
-        // What is left is not sent any more.
+        // The rest of the queue is dropped.
         self.waiting.fetch_sub(queue.try_iter().count(), Ordering::Relaxed);
         sent
     }

@@ -1,4 +1,4 @@
-//! Reads from a connection that may send nothing, or a byte now and then.
+//! Reads from a connection that may be silent or slow.
 
 use std::cell::Cell;
 use std::io::{ErrorKind, Read};
@@ -31,7 +31,7 @@ impl Read for Patient<'_> {
     }
 }
 
-/// Whether an error says that the time was over.
+/// Whether an error is a timeout.
 pub(super) fn is_over(kind: ErrorKind) -> bool {
     // Systems name it differently.
     matches!(kind, ErrorKind::WouldBlock | ErrorKind::TimedOut)

@@ -36,10 +36,10 @@ pub(crate) fn files_in(root: &Path, wanted: Wanted) -> Result<Vec<FoundFile>> {
     Ok(found)
 }
 
-/// The files that a user listed, as if they lay in one folder, and the deepest folder that has them all.
+/// The listed files as if they lay in one folder, and their deepest common folder.
 ///
 /// # Errors
-/// A file that is not there, that is listed twice, or that is no part of a trial.
+/// A file that does not exist, is listed twice, or is no part of a trial.
 pub(crate) fn listed(paths: &[PathBuf]) -> Result<(PathBuf, Vec<FoundFile>)> {
     let folder = |path: &PathBuf| path.parent().unwrap_or(Path::new("")).to_owned();
     let mut root = paths.first().map(folder).unwrap_or_default();

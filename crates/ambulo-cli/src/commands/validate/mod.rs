@@ -193,7 +193,7 @@ fn inputs(plan: &Plan) -> Vec<PathBuf> {
     all
 }
 
-/// The command with the options that matter for the results; where the folder lies does not.
+/// The command with the options that affect results, without the place of the folder.
 fn options(args: &ValidateArgs) -> String {
     let (output, jobs, dry_run, replace, print) = Default::default();
     let folder = folder_name(&args.folder).into();

@@ -27,7 +27,7 @@ pub(super) fn add(stage: &Stage, builder: &mut GlbBuilder) {
     }
 }
 
-/// One row per instant.
+/// Pose and scale of an arrow, one row per instant.
 struct Moving {
     place: Vec<[f64; 3]>,
     turn: Vec<[f64; 4]>,

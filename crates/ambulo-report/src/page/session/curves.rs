@@ -74,10 +74,11 @@ impl ShownCurve {
 
 /// The cycles of a foot, in the order of the file.
 pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side: Side) -> Vec<ShownCurve> {
-    if results.summary.not_measured.contains(&quantity.coordinates[side]) {
+    if results.summary.not_measured.contains(&quantity.coordinates[side]) || is_left_out(results, quantity, side) {
         return Vec::new();
     }
-    let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id);
+    let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id)
+        || quantity.derived.is_some() && quantity.group == ClinicalGroup::Kinematics;
     if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
         return results.cycles_of(side).map(|cycle| over_cycle(results, cycle, side, &column, values)).collect();
     }
@@ -93,6 +94,12 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
         }
     };
     rows.map(shown).collect()
+}
+
+/// Whether `clinical.csv` leaves out a quantity that no coordinate has, because the joint is not measured.
+fn is_left_out(results: &Results, quantity: &ClinicalQuantity, side: Side) -> bool {
+    let has_file = quantity.derived.is_some() && results.clinical.is_some();
+    has_file && results.clinical_column(quantity, side).is_none()
 }
 
 /// A column of `clinical.csv`, time-normalised over a cycle.
@@ -159,6 +166,9 @@ fn trace(
         role: Role::Main,
         values,
         sd: sd.map(|sd| scaled(sd, factor.abs(), block)),
+        predicted: side
+            .filter(|_| quantity.group != ClinicalGroup::Kinematics)
+            .map_or_else(Vec::new, |side| results.predicted_times(side)),
         origin: Some(origin),
     })
 }
@@ -178,7 +188,7 @@ fn scaled(values: &[f64], factor: f64, block: &mut Block) -> Series {
     block.add(&values.iter().map(|x| factor * x).collect::<Vec<_>>())
 }
 
-/// Where to find a column over time.
+/// Place of a column over time.
 struct Place<'a> {
     table: &'a Table,
     file: &'static str,
@@ -195,6 +205,10 @@ impl Place<'_> {
             return None;
         }
         let place = |table, file, column| Place { table, file, column, divisor: 1.0 };
+        if quantity.derived.is_some() {
+            let (column, _) = results.clinical_column(quantity, side?)?;
+            return Some(place(results.clinical.as_ref()?, CLINICAL, column));
+        }
         match quantity.group {
             ClinicalGroup::Kinematics => Some(place(&results.kinematics, KINEMATICS, coordinate)),
             ClinicalGroup::Moments => Some(place(results.moments.as_ref()?, MOMENTS, format!("{coordinate}_moment"))),

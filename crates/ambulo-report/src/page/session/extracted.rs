@@ -33,9 +33,9 @@ pub enum Read {
 /// A part of the cycle.
 #[derive(Clone, Copy)]
 pub enum Part {
-    /// From foot strike to the next one.
+    /// Foot strike to the next one.
     Whole,
-    /// Until foot off.
+    /// Foot strike to foot off.
     Stance,
     /// First half of stance.
     EarlyStance,
@@ -43,7 +43,7 @@ pub enum Part {
     LateStance,
     /// Second and third quarter of stance.
     MiddleOfStance,
-    /// From foot off.
+    /// Foot off to foot strike.
     Swing,
 }
 

@@ -11,7 +11,7 @@ use crate::page::contract::{Fact, Glance, PageSource};
 use ambulo::analysis::{CYCLE_SAMPLES, StrideQuantity, symmetry_index};
 use ambulo::model::Side;
 
-/// How many differences from normal are listed.
+/// Number of listed differences from normal.
 const DEVIATIONS: usize = 3;
 
 /// The most important results of a recording or walk, shown first.
@@ -43,7 +43,7 @@ fn mean(results: &Results, quantity: StrideQuantity) -> Option<f64> {
     Some(results.summary.times_and_distances.quantity(quantity)?.both?.mean)
 }
 
-/// How far the ground forces can be trusted: the standard deviation of predicted ones, the residual of measured ones.
+/// Uncertainty of the ground forces: the standard deviation of predicted ones, the residual of measured ones.
 fn uncertainty(results: &Results) -> Option<String> {
     if results.source != PageSource::Predicted {
         let residual = results.summary.residual.as_ref();
@@ -69,15 +69,16 @@ fn asymmetry(results: &Results) -> Option<Fact> {
     Some(fact("Largest asymmetry", format!("{:.0} %", 100.0 * index.abs()), Some(format!("{label}, larger {larger}"))))
 }
 
-/// How far the mean curve of a side is from normal.
+/// Distance of the mean curve of a side from normal.
 pub struct Deviation<'a> {
     quantity: &'a ClinicalQuantity,
-    /// Whose side.
+    /// Side of the curve.
     pub side: Side,
     /// Root mean square of the difference over the cycle, per root mean square of the standard deviation of healthy
-    /// people. The ratio is not formed point by point: the standard deviation of a ground force is near zero in swing.
+    /// subjects. The ratio is not formed point by point: the standard deviation of a ground force is near zero in
+    /// swing.
     pub in_sd: f64,
-    /// Where it is farthest [% of the cycle].
+    /// Place of the largest distance [% of the cycle].
     pub at_percent: usize,
     /// The value there.
     pub value: f64,
@@ -98,7 +99,7 @@ impl Deviation<'_> {
         Side::BOTH.into_iter().filter_map(of_side).max_by(|a, b| a.in_sd.total_cmp(&b.in_sd))
     }
 
-    /// From the mean curve of the side; `None` if it is too short.
+    /// Computes the deviation of the mean curve of the side; `None` if it is too short.
     pub fn between<'a>(
         quantity: &'a ClinicalQuantity,
         side: Side,

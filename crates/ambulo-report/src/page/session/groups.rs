@@ -4,9 +4,11 @@ use super::curves;
 use super::results::Results;
 use super::size::BodySize;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity, clinical_quantities};
+use crate::clinical_file::KNEE_ANGLES;
 use crate::page::block::Block;
 use crate::page::contract::{Group, PageSource, Panel};
 use ambulo::model::Side;
+use ambulo_results::JOINT_MOMENTS;
 use std::collections::BTreeSet;
 
 /// A grid: its id, its heading, the kinds of quantities in it.
@@ -40,6 +42,8 @@ const GRIDS: [Grid; 3] = [
 
 /// Moments shown above the power of the same joint.
 const SAGITTAL: [&str; 3] = ["hip_flexion_moment", "knee_flexion_moment", "ankle_dorsiflexion_moment"];
+/// Moments of the frontal plane, shown above those of the transverse plane.
+const FRONTAL: [&str; 3] = ["hip_adduction_moment", "knee_adduction_moment", "ankle_inversion_moment"];
 /// Panels per row.
 const COLUMNS: usize = 3;
 
@@ -72,10 +76,12 @@ fn group(results: &Results, size: &BodySize, grid: &Grid, quantities: &[Clinical
     Group { id: grid.id.to_owned(), title: grid.title.to_owned(), note: Some(note), columns: COLUMNS, panels }
 }
 
-/// Puts sagittal moments above the powers of the same joints; the other planes follow.
+/// Puts sagittal moments above the powers of the same joints; the frontal and the transverse plane follow.
 fn place(quantity: &ClinicalQuantity) -> usize {
     match quantity.group {
-        ClinicalGroup::Moments => usize::from(!SAGITTAL.contains(&quantity.id)) * 2,
+        ClinicalGroup::Moments if SAGITTAL.contains(&quantity.id) => 0,
+        ClinicalGroup::Moments if FRONTAL.contains(&quantity.id) => 2,
+        ClinicalGroup::Moments => 3,
         ClinicalGroup::Powers => 1,
         ClinicalGroup::Kinematics | ClinicalGroup::Ground => 0,
     }
@@ -99,5 +105,9 @@ fn names(results: &Results) -> BTreeSet<String> {
     let forces = tables.flat_map(|table| table.names().iter().map(|column| stem(column)));
     let ground = results.ground.iter().flat_map(|_| curves::GROUND_AXES.iter().map(|(name, _)| (*name).to_owned()));
     let over_cycles = results.curves.iter().map(|curve| curve.quantity.clone());
-    over_time.chain(forces).chain(ground).chain(over_cycles).collect()
+    let clinical = results.clinical.iter().flat_map(|table| table.names().iter().map(|column| stem(column)));
+    let derived = clinical
+        .flat_map(|name| [format!("{name}_angle"), name])
+        .filter(|name| KNEE_ANGLES.contains(&name.as_str()) || JOINT_MOMENTS.iter().any(|(known, _)| known == name));
+    over_time.chain(forces).chain(ground).chain(over_cycles).chain(derived).collect()
 }

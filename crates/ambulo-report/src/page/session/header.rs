@@ -6,7 +6,7 @@ use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
 use ambulo::numerics::elementary::{atan2, hypot};
 use ambulo::study::MassState;
-use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary, GroundOrigin};
+use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary};
 
 /// Below this speed a body stays in place [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -221,7 +221,7 @@ pub(super) fn forces(results: &Results) -> Fact {
     let rule = results.summary.ground.rule.as_ref();
     let split = rule.map(|rule| format!("method for double support: {rule}"));
     let (value, note) = match results.source {
-        PageSource::Measured if results.summary.ground.source == GroundOrigin::Mixed => {
+        PageSource::Mixed => {
             ("measured by force plates, predicted where a loaded foot was not on them", results.summary.ground.shares())
         }
         PageSource::Measured => {

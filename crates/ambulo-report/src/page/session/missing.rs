@@ -1,4 +1,4 @@
-//! Lists what the page cannot show, and why.
+//! Lists parts that the page cannot show, with the reason.
 
 use super::curves::over_time;
 use super::results::Results;
@@ -16,11 +16,15 @@ const LACKING: [(&str, &str); 5] = [
     ("pelvis_obliquity_angle", "pelvic obliquity and rotation (the body moves in a plane)"),
     ("hip_adduction_angle", "hip adduction and rotation (the body moves in a plane)"),
     ("knee_flexion_angle", "knee flexion (no body file shows which direction is flexion)"),
-    ("knee_adduction_angle", "knee varus and rotation (the knee of this model only flexes)"),
+    (
+        "knee_adduction_angle",
+        "knee varus and rotation (the knee of this model only flexes, and its segments have too \
+        few markers)",
+    ),
     ("foot_progression_angle", "foot progression (not computed)"),
 ];
 
-/// Of long recordings, not all instants are drawn.
+/// Sentence about a long recording of which not all instants are drawn.
 fn thinned(results: &Results) -> String {
     let (step, drawn) = (results.step, results.grid.frames);
     format!(
@@ -123,7 +127,9 @@ fn is_lost(results: &Results, side: Side) -> bool {
 
 fn leg(results: &Results, side: Side) -> String {
     let why = match results.source {
-        PageSource::Measured => "no foot strike on a force plate is followed by a known strike of the same foot",
+        PageSource::Measured | PageSource::Mixed => {
+            "no foot strike on a force plate is followed by a known strike of the same foot"
+        }
         _ => "fewer than two foot strikes were detected",
     };
     format!("No whole cycle of the {side} foot: {why}. Its curves are shown over time only.")

@@ -11,6 +11,7 @@ pub(crate) mod feasibility;
 pub(crate) mod glance;
 mod groups;
 mod header;
+mod knee_adduction;
 mod machines;
 mod missing;
 pub(crate) mod pace;
@@ -25,10 +26,11 @@ mod time_distance;
 pub(crate) mod words;
 
 use super::block::Block;
-use super::contract::{DataQuality, PageMachine, PageQuality, Session};
+use super::contract::{DataQuality, PageMachine, PageQuality, Session, Table};
 use super::view::{Viewed, view};
 use ambulo::study::{Quality, QualityState};
-use ambulo_results::{Folder, KINEMATICS, ResultsError, RunSummary};
+use ambulo_results::{Folder, Ground, KINEMATICS, ResultsError, RunSummary};
+use extracted::Extracted;
 use feasibility::Basis;
 use results::{AllRows, Results};
 use size::BodySize;
@@ -76,19 +78,14 @@ fn recording(
     }
     Ok(Session {
         name: header::recording_name(&results),
-        data: results.summary.quality.as_ref().map(data_quality),
+        data: results.summary.quality.as_ref().map(|quality| data_quality(quality, &results.summary.ground)),
         glance: Some(glance::glance(&results, &size, &shown)),
         header: header::header(&results, &size),
         source: results.source,
         time: results.time(),
         groups,
         machines,
-        tables: vec![
-            time_distance::table(&results, &size),
-            extracted::table(&values),
-            extracted::symmetry(&values, &results.summary.times_and_distances),
-            peaks::peaks(&results.summary.peaks),
-        ],
+        tables: tables(&results, &size, &values),
         quality,
         feasibility,
         view: viewed.view,
@@ -98,12 +95,24 @@ fn recording(
     })
 }
 
-/// The quality with its three strongest reasons.
-fn data_quality(quality: &Quality) -> DataQuality {
+/// Times and distances, and what the curves show in numbers.
+fn tables(results: &Results, size: &BodySize, values: &[Extracted]) -> Vec<Table> {
+    let summary = &results.summary;
+    let mut tables = vec![time_distance::table(results, size), extracted::table(values)];
+    tables.extend(knee_adduction::knee_adduction(&summary.knee_adduction_moment));
+    tables.push(extracted::symmetry(values, &summary.times_and_distances));
+    tables.push(peaks::peaks(&summary.peaks));
+    tables
+}
+
+/// The quality with its three strongest reasons; good data may be those of one leg only.
+fn data_quality(quality: &Quality, ground: &Ground) -> DataQuality {
     let state = match quality.state {
         QualityState::Good => PageQuality::Good,
         QualityState::Doubtful => PageQuality::Doubtful,
         QualityState::Bad => PageQuality::Bad,
     };
-    DataQuality { state, reasons: quality.reasons.iter().take(3).map(|reason| reason.message.clone()).collect() }
+    let one_leg = ground.unmeasured_leg().filter(|_| quality.reasons.is_empty());
+    let reasons = quality.reasons.iter().take(3).map(|reason| reason.message.clone());
+    DataQuality { state, reasons: reasons.chain(one_leg).collect() }
 }

@@ -19,6 +19,7 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
         role,
         values: block.add(values),
         sd: None,
+        predicted: Vec::new(),
         origin,
     };
     let panel = Panel {
@@ -58,7 +59,7 @@ pub fn mean_speed(place: &[f64], step_s: f64, cycle_s: f64) -> Vec<f64> {
     (0..place.len()).map(|frame| speed(around(frame))).collect()
 }
 
-/// The speed that the changes ask for: straight lines from the pace before to the pace after each change.
+/// The planned speed: straight lines from the pace before to the pace after each change.
 #[must_use]
 pub fn asked(first: f64, changes: &[PaceChangeSummary], times: &[f64]) -> Vec<f64> {
     let at = |time_s: f64| {

@@ -26,7 +26,7 @@ pub(super) struct AllRows {
 }
 
 impl AllRows {
-    /// Of a folder whose `kinematics.mot` has all rows.
+    /// Reads a folder whose `kinematics.mot` has all rows.
     pub(super) fn read(folder: &Folder<'_>, kinematics: &Table) -> Result<AllRows, ResultsError> {
         let events = folder.events()?.iter().map(page_event).collect::<Vec<_>>();
         let curves = folder.cycles()?;
@@ -36,7 +36,7 @@ impl AllRows {
     }
 }
 
-/// Of a table of time series, the first of this many rows is drawn.
+/// Step between the drawn rows of a table of time series.
 pub(super) fn step(table: &Table) -> usize {
     table.rows().div_ceil(MOST_INSTANTS).max(1)
 }
@@ -57,7 +57,7 @@ pub(super) struct Results {
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
-    /// Of the rows of the files, the first of this many is drawn.
+    /// Step between the drawn rows of the files.
     pub(super) step: usize,
     /// The name of the model file, and the model.
     pub(super) body: Option<(&'static str, Model)>,
@@ -130,6 +130,22 @@ impl Results {
         self.summary.gravity_m_s2
     }
 
+    /// Whether force plates measured the ground forces, or most of them.
+    pub(super) fn is_measured(&self) -> bool {
+        matches!(self.source, PageSource::Measured | PageSource::Mixed)
+    }
+
+    /// The times in which the load of a foot was not measured, while others were [s].
+    pub(super) fn predicted_times(&self, side: Side) -> Vec<[f64; 2]> {
+        let column = format!("ground_source_{}", side.letter());
+        let tables = [&self.moments, &self.powers, &self.ground, &self.clinical];
+        let marks = tables.into_iter().flatten().find_map(|table| table.column(&column)).unwrap_or_default();
+        let rows: Vec<usize> = (0..marks.len().min(self.times.len())).collect();
+        let is_marked = |row: &usize| marks[*row] > 0.0;
+        let runs = rows.chunk_by(|a, b| is_marked(a) == is_marked(b)).filter(|run| is_marked(&run[0]));
+        runs.map(|run| [run[0], run[run.len() - 1]].map(|row| self.times[row])).collect()
+    }
+
     /// The limit of a check of the verdict.
     pub(super) fn limit(&self, check: Check) -> Option<f64> {
         let judged = self.summary.verdict.as_ref()?.closest.iter().find(|entry| entry.check == check)?;
@@ -177,7 +193,8 @@ fn mass(folder: &Folder<'_>, summary: &Summary) -> Result<f64, ResultsError> {
 
 fn source(summary: &Summary) -> PageSource {
     match summary.ground.source {
-        GroundOrigin::Measured | GroundOrigin::Mixed => PageSource::Measured,
+        GroundOrigin::Measured => PageSource::Measured,
+        GroundOrigin::Mixed => PageSource::Mixed,
         GroundOrigin::Predicted => PageSource::Predicted,
         GroundOrigin::Simulated => PageSource::Simulated,
         GroundOrigin::None => PageSource::None,

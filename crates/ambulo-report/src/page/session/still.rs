@@ -5,7 +5,7 @@ use super::results::Results;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity, moves};
 use ambulo::model::{Drive, Side};
 
-/// Splits quantities into those that change and those that are constant. If all of a group are constant, all are shown.
+/// Splits quantities into changing and constant ones. If all quantities of a group are constant, all are shown.
 pub(super) fn divided(
     results: &Results,
     quantities: &[ClinicalQuantity],

@@ -9,7 +9,7 @@ use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
 use ambulo_results::WalkingSummary;
 
-/// How a quantity is shown. Units are those of the summary.
+/// How a quantity is shown. Units are as in the summary.
 struct Row {
     quantity: StrideQuantity,
     label: &'static str,

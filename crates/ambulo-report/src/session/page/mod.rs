@@ -1,4 +1,4 @@
-//! The page of a session: one file that loads nothing.
+//! The page of a session: one file that needs no other file.
 
 mod figures;
 mod sections;
@@ -35,6 +35,7 @@ pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
     body += &part("Mean and standard deviation", Part::ALL.map(|part| figures.means(part)))?;
     body += &before_and_after(&figures)?;
     body += &section(&sections::times(compared));
+    body += &section(&sections::knee_adduction(&compared.session));
     body += &section(&sections::deviations(compared));
     body += &section(&sections::sides(compared));
     body += &part("Consistency: all cycles", Part::ALL.map(|part| figures.consistency(part)))?;

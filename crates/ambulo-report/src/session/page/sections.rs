@@ -71,6 +71,21 @@ pub(super) fn times(compared: &ComparedSession) -> Section {
     Section { title: "Times and distances", table, note: note.to_owned() }
 }
 
+pub(super) fn knee_adduction(session: &Session) -> Section {
+    let mut table = TextTable::new(&["", "unit", "right", "left", "both", "symmetry %"]);
+    for found in &session.summary.knee_adduction_moment {
+        let cell = |spread_of: &Option<SpreadSummary>| {
+            spread_of.map_or(String::new(), |found| spread(found.mean, found.sd, found.strides, 2))
+        };
+        let [right, left, both] = [&found.right, &found.left, &found.both].map(cell);
+        let symmetry = found.symmetry.map_or(String::new(), |index| format!("{:+.0}", 100.0 * index));
+        table.row([found.quantity.replace('_', " "), found.unit.clone(), right, left, both, symmetry]);
+    }
+    let note = "External moment in stance, mean ± standard deviation, and the number of cycles: the largest values in \
+        the first and in the second half, and the area of the positive part.";
+    Section { title: "Knee adduction moment", table, note: note.to_owned() }
+}
+
 pub(super) fn deviations(compared: &ComparedSession) -> Section {
     let mut table = TextTable::new(&[
         "",
@@ -172,7 +187,7 @@ pub(super) fn trials(session: &Session) -> Section {
     Section { title: "Trials", table, note }
 }
 
-/// Cycles that are in no mean, and those that are far from the others.
+/// Excluded cycles, and outliers among the counted ones.
 pub(super) fn excluded(session: &Session) -> Section {
     let mut table = TextTable::new(&["trial", "side", "cycle", "in the means", "reason"]);
     let found = session.representative();

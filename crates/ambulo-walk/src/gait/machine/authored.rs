@@ -93,7 +93,7 @@ pub(super) fn driven_part(settings: &MachineSettings) -> Option<WalkPart> {
     }
 }
 
-/// The pace of a state of a machine that drives the pace; states are counted with that of rest.
+/// The pace of a state of a machine that drives the pace; the state of rest is counted.
 pub(super) fn pace_of(settings: &MachineSettings, state: usize) -> Option<&PaceChange> {
     match (&settings.drives, &settings.states.get(state.checked_sub(1)?)?.activity) {
         (Driven::Pace, Activity::Pace(change)) => Some(change),

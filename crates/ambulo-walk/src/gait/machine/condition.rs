@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! any  = all { "or" all }            all = one { "and" one }            one = "not" one | "(" any ")" | test
-//! test = "after" NUMBER ( "s" | "steps" )                               time or steps since the machine entered its state
+//! test = "after" NUMBER ( "s" | "steps" )                               time or steps since the state was entered
 //!      | "time" COMPARISON NUMBER "s"                                   since the machines began
 //!      | ( "right" | "left" ) "phase" COMPARISON NUMBER "%"             of the cycle of a foot since its strike
 //!      | ( "right" | "left" ) "foot" ( "strikes" | "leaves" | "is" ( "down" | "up" ) )
@@ -44,7 +44,7 @@ pub enum Condition {
     Standing,
     /// The opposite.
     Not(Box<Condition>),
-    /// All of them.
+    /// All of these conditions hold.
     All(Vec<Condition>),
     /// At least one of them.
     Any(Vec<Condition>),
@@ -66,13 +66,13 @@ pub enum Comparison {
 /// Event or state of a foot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FootEvent {
-    /// It is loaded now and was not before.
+    /// The foot is loaded now and was not before.
     Strikes,
-    /// It was loaded and is not any more.
+    /// The foot was loaded and is not any more.
     Leaves,
-    /// It is loaded.
+    /// The foot is loaded.
     IsDown,
-    /// It is not loaded.
+    /// The foot is not loaded.
     IsUp,
 }
 
@@ -124,7 +124,7 @@ impl Condition {
         }
     }
 
-    /// Whether the condition reads what only a simulation knows: loads on the feet, angles, signals.
+    /// Whether the condition reads a value that exists only in a simulation: loads on the feet, angles, signals.
     #[must_use]
     pub(crate) fn reads_simulation(&self) -> bool {
         match self {

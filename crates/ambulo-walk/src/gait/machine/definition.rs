@@ -35,7 +35,7 @@ pub struct Sensed {
     pub time_s: f64,
     /// Whether each foot is loaded.
     pub loaded: BySide<bool>,
-    /// The same in the previous step.
+    /// Whether each foot was loaded in the previous step.
     pub loaded_before: BySide<bool>,
     /// Angles of joints [rad]: clinical signs for parts of the gait, the model's signs for coordinates.
     pub angles: Vec<(String, f64)>,
@@ -61,10 +61,10 @@ pub(super) struct Active {
 /// Why a machine is in its state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) enum Cause {
-    /// It started in it.
+    /// The machine started in this state.
     #[default]
     Start,
-    /// Its gate opened, or closed.
+    /// The gate of the machine opened (true) or closed.
     Gate(bool),
     /// A transition by its number.
     Transition(usize),
@@ -75,7 +75,7 @@ pub(super) enum Cause {
 pub(super) struct Passage {
     start_s: f64,
     duration_s: f64,
-    /// Output of the earlier activity minus that of the new one, at the start.
+    /// Output of the earlier activity minus output of the new one, at the start.
     from: Jet,
 }
 
@@ -182,12 +182,12 @@ pub struct Machine {
     pub(super) gate: Option<Gate>,
 }
 
-/// When a machine runs. While it does not, it is in its first state.
+/// Condition for a machine to run. While it does not run, it is in its first state.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Gate {
     /// Another machine and its state; `None` for a machine that runs from the time at which machines begin.
     pub during: Option<(String, String)>,
-    /// Whether it goes on in the state in which it was interrupted.
+    /// Whether the machine resumes the state in which it was interrupted.
     pub resumes: bool,
     /// Duration of the passages into the second state, where it starts, and back into the first [s].
     pub within_s: [f64; 2],
@@ -284,7 +284,7 @@ impl Machine {
         }
     }
 
-    /// A machine that runs at some times only. Its first state is that of rest, the second the one in which it starts.
+    /// A machine that runs at some times only. Its first state is rest; it starts in the second.
     #[must_use]
     pub(crate) fn with_gate(mut self, gate: Gate) -> Machine {
         self.gate = Some(gate);

@@ -122,7 +122,7 @@ fn driven(value: &Value<'_>) -> Result<Driven, TomlError> {
     if let Some(part) = WalkPart::ALL.into_iter().find(|part| part.name() == name) {
         return Ok(Driven::Part(part));
     }
-    // Coordinates of models have no spaces; which ones a figure has is known when it walks.
+    // Coordinates of models have no spaces. The coordinates of the figure are checked later, when it walks.
     let is_coordinate = !name.contains(' ') && name.contains('_');
     if is_coordinate && !crate::gait::COORDINATE_NAMES.contains(&name.as_str()) {
         return Ok(Driven::Coordinate(name));

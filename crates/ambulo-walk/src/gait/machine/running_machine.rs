@@ -29,7 +29,7 @@ pub struct RunningMachine {
     names: Vec<String>,
     /// States of each machine.
     states: Vec<Vec<State>>,
-    /// Conditions of the transitions of each machine, and those of its gate: closed, open.
+    /// Conditions of the transitions of each machine, and conditions of its gate: closed, open.
     reasons: Vec<Reasons>,
     /// State and output of every machine before and after the last step, in the order of the names.
     before: Vec<Active>,

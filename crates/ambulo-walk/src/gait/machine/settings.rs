@@ -10,14 +10,14 @@ use std::sync::Arc;
 /// A machine that a user describes. It runs next to the machine of the walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSettings {
-    /// Name, different from those of all other machines.
+    /// Name, unique among the machines.
     pub name: String,
     /// The joint, the coordinate or the pace that its activities set.
     pub drives: Driven,
     /// Another machine and one of its states: this machine runs only during that state, and is interrupted when it
     /// ends.
     pub during: Option<(String, String)>,
-    /// Whether it goes on in its last state when it runs again; otherwise it restarts in its first state.
+    /// Whether the machine resumes its last state when it runs again; otherwise it restarts in its first state.
     pub resumes: bool,
     /// States; it starts in the first one.
     pub(crate) states: Vec<StateSettings>,
@@ -56,7 +56,7 @@ pub enum Driven {
     Coordinate(String),
     /// The pace.
     Pace,
-    /// Nothing: other machines wait for its states.
+    /// No output: other machines wait for the states of this machine.
     Nothing,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct StateSettings {
 /// How a machine computes its output in a state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Activity {
-    /// Nothing; of machines that drive nothing.
+    /// No activity, for machines without output.
     Wait,
     /// The curve of the gait at another phase, with the distance from upright standing scaled, and an offset.
     Walk {
@@ -121,7 +121,7 @@ pub(crate) struct TransitionSettings {
     pub from: usize,
     /// Index of the state that is entered.
     pub to: usize,
-    /// When it is taken.
+    /// Condition for the transition.
     pub when: Condition,
     /// Duration of the passage from the old activity to the new one [s]. Angle, rate and acceleration are continuous.
     pub within_s: f64,

@@ -1,4 +1,4 @@
-//! Records which states the machines of a walk were in, and when.
+//! Records the states of the machines of a walk over time.
 
 use super::running_machine::RunningMachine;
 
@@ -16,7 +16,7 @@ pub struct StatePeriod {
 /// A change of a machine from one state to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateChange {
-    /// When [s].
+    /// Time of the change [s].
     pub time_s: f64,
     /// Name of the machine.
     pub machine: String,
@@ -94,8 +94,8 @@ impl StateTrace {
     }
 }
 
-/// Tells of the states and changes of a trace while it grows: the same as [`StateTrace::changes`], each in the step in
-/// which it happens.
+/// Reports the states and changes of a trace while it grows: as [`StateTrace::changes`], each in the step in which it
+/// happens.
 pub struct StateWatch<'a> {
     /// First and last instant [s]; reported times count from the first one.
     ends_s: [f64; 2],

@@ -281,14 +281,14 @@ impl WalkMachine {
     }
 
     /// Runs all machines once at a time [s] and returns the posture of their outputs. Feet are loaded as the gait
-    /// plans, and angles are those of the previous step.
+    /// plans; the machines read the angles of the previous step.
     pub fn step(&mut self, time_s: f64) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);
         self.step_to(time_s, &clock, phases, phases.stance)
     }
 
-    /// The same with the loads that the feet have.
+    /// As [`WalkMachine::step`], with the measured loads of the feet.
     pub(crate) fn step_with(&mut self, time_s: f64, loaded: BySide<bool>) -> WalkPosture {
         let clock = self.walk.clock(time_s);
         let phases = self.walk.phases(&clock);
@@ -390,7 +390,7 @@ pub fn planned(walk: Walk, cycles: f64, longest_s: f64, findings: &mut Findings)
 
 /// Cycles until machines repeat what they do, cycles in which this is judged, and instants of each.
 const JUDGED: (usize, usize, usize) = (4, 20, 500);
-/// Difference of an angle from one cycle to the next that is none [rad]: a transition may be noticed one instant later.
+/// Negligible difference of an angle between two cycles [rad]: a transition may be detected one instant later.
 const SAME_ANGLE: f64 = 0.03;
 
 /// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four

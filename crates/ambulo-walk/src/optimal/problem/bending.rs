@@ -1,9 +1,9 @@
 //! Second derivatives of the residuals, for Newton's method.
 //!
-//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is that of the normal equations. The
-//! second one is, per instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is differentiated by
-//! differences. Forces are linear in accelerations; therefore only positions and rates need to change, unless a term is
-//! another function of forces. The rest follows by symmetry.
+//! Half the Hessian of a sum of squares Σ r² is Σ ∇r ∇rᵀ + Σ r ∇²r. The first sum is the matrix of the normal
+//! equations. The second one is, per instant, the derivative of b(z) = Σ r ∇r(z) with r fixed. ∇r is exact, so b is
+//! differentiated by differences. Forces are linear in accelerations; therefore only positions and rates need to
+//! change, unless a term is another function of forces. The rest follows by symmetry.
 
 use super::Transcription;
 use crate::optimal::instant::Instant;
@@ -15,9 +15,9 @@ const CHANGES: [f64; 3] = [1e-6, 1e-5, 1e-3];
 
 /// Factors of the derivatives of quantities in b: their residuals over their deviations.
 struct Pull<'a> {
-    /// Per force.
+    /// Factors, one per force.
     forces: Vec<f64>,
-    /// Of other quantities that are not linear.
+    /// Factors of other quantities that are not linear.
     others: Vec<(&'a Quantity, f64)>,
 }
 

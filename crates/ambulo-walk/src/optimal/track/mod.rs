@@ -51,12 +51,12 @@ const LONGEST_S: f64 = 120.0;
 /// Shortest recording, in knot intervals.
 const SHORTEST: usize = 8;
 
-/// Data of a foot besides its motion.
+/// Data of a foot other than its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootGuide {
     /// The sole.
     pub sole: Sole,
-    /// From foot strike to foot off [s].
+    /// Foot strike and foot off of the stances [s].
     pub stances_s: Vec<[f64; 2]>,
     /// Height of the floor in each stance [m].
     pub floors_m: Vec<f64>,
@@ -74,12 +74,12 @@ pub struct FootGuide {
 pub struct TrackSettings {
     /// Deviation of a joint angle that costs 1 [rad].
     pub angle: f64,
-    /// Largest change of a joint angle that costs nothing besides [rad]: more than the errors of markers and of
+    /// Largest change of a joint angle without additional cost [rad]: more than the errors of markers and of
     /// skeletons.
     pub most_change: f64,
     /// Angle beyond this change, or beyond the range of the joint, that costs 1 [rad].
     pub beyond: f64,
-    /// The same for the rotations of the root [rad].
+    /// Deviation of a rotation of the root that costs 1 [rad].
     pub root_angle: f64,
     /// The same for the translations of the root [m].
     pub place: f64,
@@ -137,13 +137,13 @@ pub enum TrackError {
     /// A model without legs.
     #[error("the model `{model}` has no two legs with hip, knee, ankle and foot; expected both legs")]
     NoFeet {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
-    /// A body that is held.
+    /// A body whose root cannot move freely.
     #[error("the root of the model `{model}` does not move freely; expected six free coordinates at the root")]
     HeldRoot {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A spring between bodies.
@@ -160,7 +160,7 @@ pub enum TrackError {
     /// Another vertical than y.
     #[error("the gravity of the model `{model}` does not act along -y; expected y as the upward axis")]
     NotUpright {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// No foot on the ground.
@@ -174,7 +174,7 @@ pub enum TrackError {
     UnevenFloor {
         /// Difference.
         what: &'static str,
-        /// By how much.
+        /// Difference found.
         found: f64,
         /// The most that is supported.
         most: f64,
@@ -188,11 +188,11 @@ pub enum TrackError {
         1e3 * distance_m, 80.0
     )]
     SoleOffFloor {
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
         /// The sphere under it.
         sphere: String,
-        /// Its distance [m].
+        /// Distance found [m].
         distance_m: f64,
     },
     /// No motion near the recorded one was found that feet on the ground can make.
@@ -208,7 +208,7 @@ pub enum TrackError {
     /// A recording that is too short or too long.
     #[error("the motion lasts {found_s:.2} s; expected {least_s:.2} to {most_s:.0} s")]
     Duration {
-        /// Its duration [s].
+        /// Duration found [s].
         found_s: f64,
         /// The shortest that can be tracked [s].
         least_s: f64,
@@ -220,7 +220,7 @@ pub enum TrackError {
 /// The ground force on one foot, one entry per frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackedFoot {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Force [N].
     pub force: Vec<Vec3>,
@@ -259,7 +259,7 @@ pub struct TrackProblem<'a> {
     /// Numbers of unknowns of locked, prescribed and coupled coordinates.
     kept: Vec<usize>,
     floor_m: f64,
-    /// Velocity of each coordinate due to that of the floor [m/s].
+    /// Velocity of each coordinate due to the velocity of the floor [m/s].
     belt: Vec<f64>,
 }
 
@@ -304,7 +304,7 @@ impl<'a> TrackProblem<'a> {
         Ok(TrackProblem { problem, guess, recorded, kept, floor_m, belt })
     }
 
-    /// Solves the problem; goes on with the last stage if forces at the root remain.
+    /// Solves the problem; repeats the last stage if forces at the root remain.
     ///
     /// # Errors
     /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that
@@ -392,7 +392,7 @@ impl<'a> TrackProblem<'a> {
     }
 }
 
-/// Instants of the problem: every so many frames of the recording, and a few after its end.
+/// Instants of the problem: every n-th frame of the recording, and a few after its end.
 struct Instants {
     /// Frames from one instant to the next.
     frames: usize,

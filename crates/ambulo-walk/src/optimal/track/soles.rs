@@ -15,7 +15,7 @@ use crate::spatial::Vec3;
 
 /// Radius of a sphere, as a share of half the width of the foot.
 const RADIUS: f64 = 0.6;
-/// Breadth of the heel, as a share of the width of the foot: that of [`super::super::soles_with_width`].
+/// Breadth of the heel, as a share of the width of the foot, as in [`super::super::soles_with_width`].
 const HEEL: f64 = 0.7;
 /// Share of the stances in which a sphere is at its lowest.
 const LOWEST: f64 = 0.1;
@@ -76,7 +76,7 @@ pub(super) struct Soles {
     pub(super) heights: Vec<Vec<f64>>,
 }
 
-/// Spheres at the three points of a sole, on both of its edges. Those of heel and tip touch the ends of the foot.
+/// Spheres at the three points of a sole, on both of its edges. Spheres of heel and tip touch the ends of the foot.
 fn of_foot(leg: &Leg, sole: &Sole, side: Side) -> Vec<ContactSphere> {
     let [ahead, up] = leg.foot_axes();
     let right = ahead.cross(&up);

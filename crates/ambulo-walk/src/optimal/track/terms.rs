@@ -21,8 +21,8 @@ pub(super) struct Recorded<'a> {
     pub(super) settings: &'a TrackSettings,
 }
 
-/// All terms. `heights` are those of the spheres above the floor in each frame [m], `moments` expected generalised
-/// forces.
+/// All terms. `heights` are the heights of the spheres above the floor in each frame [m], `moments` expected
+/// generalised forces.
 pub(super) fn terms(
     recorded: &Recorded<'_>,
     feet: &BySide<FootGuide>,

@@ -1,7 +1,8 @@
 //! A part of a walk that does not repeat: a change of pace, a start or a halt, as one motion whose ends are given.
 //!
-//! It begins in the state of the motion before and ends in that of the motion after, both of which repeat: a walk, or
-//! standing. So no force from outside is needed at any time. The place of its end is free: the walk goes on from there.
+//! It begins in the state of the motion before and ends in the state of the motion after, both of which repeat: a walk,
+//! or standing. So no force from outside is needed at any time. The place of its end is free: the walk continues from
+//! there.
 //!
 //! **Ends.** Five coefficients of a quintic spline determine its value and its first four derivatives at a knot. With
 //! derivatives p, p', .. p'''' by knots, the coefficient c knots behind that knot is (Marsden's identity for uniform
@@ -12,8 +13,8 @@
 //! because the Fourier transform of the spline is (sin(ω/2)/(ω/2))⁶. These coefficients keep their value. Value, rate
 //! and acceleration are exact; the other two are differences of the acceleration.
 //!
-//! **The first guess** is what the gait asks for, changed as both motions are: with the share R of the change, the
-//! share of walking w and the changes c₀, c₁ of both walks at the same phase φ,
+//! **The first guess** is the motion that the gait plans, changed as both motions are: with the share R of the change,
+//! the share of walking w and the changes c₀, c₁ of both walks at the same phase φ,
 //!
 //!   q = q_gait(t) + w [(1 - R) c₀(φ) + R c₁(φ)]
 
@@ -42,9 +43,9 @@ const STANDING: (f64, usize) = (0.4, 8);
 /// A motion that repeats, before or after a passage.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PassageEnd<'a> {
-    /// Its problem, whose first guess is the gait.
+    /// Problem of the motion; its first guess is the gait.
     pub problem: &'a WalkProblem,
-    /// Its motion.
+    /// Solved motion.
     pub solution: &'a Solution,
     /// Duration of its cycle [s].
     pub cycle_s: f64,
@@ -154,7 +155,7 @@ pub fn coefficient([p, d1, d2, d3, d4]: [f64; 5], c: f64) -> f64 {
 }
 
 impl Passage<'_> {
-    /// The first guess at some times [s], from what the gait asks for.
+    /// The first guess at some times [s], from the posture `asked` that the gait plans.
     fn guess(&self, model: &Model, walk: &Walk, times_s: &[f64], asked: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let count = model.coordinates().len();
         let along = forward(model);
@@ -195,7 +196,7 @@ impl PassageEnd<'_> {
         if is_standing { f64::INFINITY } else { 2.0 * duration_s * costs.knots as f64 / knots as f64 }
     }
 
-    /// The motion that the gait asks for.
+    /// The motion that the gait plans.
     fn gait(&self) -> Result<Solution, CurvedJointError> {
         self.problem.problem.at(&self.problem.guess)
     }

@@ -1,9 +1,9 @@
 //! Targets of a walk at some instants: normative curves, and targets of the machines of its gait.
 //!
 //! Where the pace changes, targets follow the clock of the walk ([`Clock`]). With w the share of walking between
-//! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the force of people who walk,
-//! and s is the share of the foot in the load of both: that of people while the figure moves, and one half where it
-//! almost stands.
+//! standing (0) and walking (1), a foot carries w f + (1 - w) s body weights. Here f is the normative force of walking,
+//! and s is the share of the foot in the load of both: the normative share while the figure moves, and one half where
+//! it almost stands.
 
 use crate::gait::machine::WalkMachine;
 use crate::gait::{
@@ -19,7 +19,7 @@ const SWING_MARGINS: [[f64; 2]; 3] = [[0.03, 0.025], [0.03, 0.04], [0.03, 0.04]]
 /// Smallest height of a swinging sole while the figure walks [m]. It is less with the square of the share of walking,
 /// as the height to which the gait lifts the sole is.
 const CLEARANCE: f64 = 0.008;
-/// Share of walking below which both feet carry what a standing figure asks of them.
+/// Share of walking below which both feet carry the load of standing.
 const STANDS_BELOW: f64 = 0.2;
 /// Largest extension of the toes in the first guess [rad].
 const TOES_LIMIT: f64 = 0.8;
@@ -37,7 +37,7 @@ pub(super) fn settled_s(walk: &Walk) -> f64 {
 /// Targets at one instant.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
-    /// Coordinates, rates and accelerations. The height is that of the leg.
+    /// Coordinates, rates and accelerations. The height is the leg's.
     pub(super) posture: [Vec<f64>; 3],
     /// Ground force of the right and of the left foot: forward, up [body weights].
     pub(super) forces: [[f64; 2]; 2],
@@ -82,7 +82,7 @@ impl<'a> Targets<'a> {
         times_s.iter().map(|time_s| self.target(*time_s)).collect()
     }
 
-    /// The posture that the machines of the gait ask for. Machines of a gait file remember, so they are stepped from
+    /// The posture that the machines of the gait plan. Machines of a gait file have a state, so they are stepped from
     /// their beginning on.
     fn asked(&mut self, time_s: f64) -> WalkPosture {
         if !self.walk.gait().machines.is_empty() {
@@ -139,7 +139,7 @@ impl<'a> Targets<'a> {
         })
     }
 
-    /// Moments of a leg; those of standing are not known, and small.
+    /// Moments of a leg; in standing they are unknown and small.
     fn joint_moments(&self, at: &WalkPosture, clock: &Clock, side: Side) -> JointMoments {
         let share = clock.walking.value;
         let JointMoments { hip_extension, knee_extension, plantarflexion, hip_abduction } =

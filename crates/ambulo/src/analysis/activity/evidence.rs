@@ -27,8 +27,11 @@ const PIECE_S: f64 = 0.5;
 pub(super) struct Evidence {
     /// Number of foot strikes.
     pub(super) steps: usize,
-    /// Median way of a foot over the floor from one stance to its next one [m]; `None` without two stances of a foot.
+    /// Median way of a foot over the floor from one stance to its next one [m]; where no foot has two stances, twice the
+    /// median step forward from a stance of one foot to the next one of the other; `None` with less.
     pub(super) stride_m: Option<f64>,
+    /// Median time from foot off to the next strike of the same foot [s]; `None` if no swing is complete.
+    pub(super) swing_s: Option<f64>,
     /// Path of the pelvis over the floor [m].
     pub(super) path_m: f64,
     /// Mean speed along this path [m/s].
@@ -59,6 +62,8 @@ struct Instant {
     feet: BySide<Vec3>,
     /// Height of the pelvis [m].
     height: f64,
+    /// Forward direction of the pelvis: horizontal, of unit length.
+    forward: Vec3,
     /// Heading of the pelvis [rad], in (-π, π].
     heading: f64,
     /// Distance from the mass centre forward to the nearest rear point of a sole [m]: above zero, it is behind both
@@ -87,6 +92,7 @@ impl Evidence {
         Some(Evidence {
             steps: footfalls.falls.iter().filter(|fall| fall.strike_s.is_some()).count(),
             stride_m,
+            swing_s: swing(footfalls),
             path_m,
             speed_m_s: path_m / ((instants.len() - 1) as f64 * grid.step_s),
             duty_factor: duty_factor(footfalls),
@@ -115,20 +121,20 @@ fn instants(
     each_body_motion(model, trajectory, |frame, bodies| {
         let across = bodies[legs.right.index()].pose.translation - bodies[legs.left.index()].pose.translation;
         let forward = up.cross(&across);
-        let forward = forward - up * forward.dot(&up);
+        let level = forward - up * forward.dot(&up);
+        let forward = level / level.norm().max(f64::MIN_POSITIVE);
         let moved = floor_velocity * (grid.time(frame) - grid.start_s);
         let place = bodies[pelvis.index()].pose.translation - moved;
         let rear = |side: Side| {
             let point = &soles[side].points[0];
             bodies[point.body.index()].pose.place(point.place)
         };
-        let behind = |side: Side| -> f64 {
-            (rear(side) - mass_center(model, bodies)).dot(&forward) / forward.norm().max(f64::MIN_POSITIVE)
-        };
+        let behind = |side: Side| -> f64 { (rear(side) - mass_center(model, bodies)).dot(&forward) };
         instants.push(Instant {
             level: place - up * place.dot(&up),
             feet: BySide::from_fn(|side| rear(side) - moved - up * (rear(side) - moved).dot(&up)),
             height: place.dot(&up),
+            forward,
             heading: heading(forward, up),
             behind_m: behind(Side::Right).min(behind(Side::Left)),
         });
@@ -148,19 +154,34 @@ fn heading(forward: Vec3, up: Vec3) -> f64 {
     atan2(forward.dot(&up.cross(&ahead)), forward.dot(&ahead))
 }
 
-/// Median distance between the places of a foot in the middle of a stance and of its next one [m].
+/// Median time from foot off to the next strike of the same foot [s].
+fn swing(footfalls: &Footfalls) -> Option<f64> {
+    let mut times = Vec::new();
+    for side in Side::BOTH {
+        let falls: Vec<&Footfall> = footfalls.of(side).collect();
+        times.extend(falls.windows(2).filter_map(|pair| Some(pair[1].strike_s? - pair[0].off_s?)));
+    }
+    median(times)
+}
+
+/// Median distance between the places of a foot in the middle of a stance and of its next one [m], or twice the
+/// distance forward between the places of both feet.
 fn stride(instants: &[Instant], footfalls: &Footfalls, grid: TimeGrid) -> Option<f64> {
     let middle = |fall: &Footfall| {
         let (from, to) = (fall.strike_s.unwrap_or(grid.start_s), fall.off_s.unwrap_or(grid.end_s()));
         let frame = ((0.5 * (from + to) - grid.start_s) / grid.step_s).round() as usize;
-        instants.get(frame).map(|instant| instant.feet[fall.side])
+        instants.get(frame).map(|instant| (instant.feet[fall.side], instant.forward))
     };
     let mut ways = Vec::new();
     for side in Side::BOTH {
-        let places: Vec<Vec3> = footfalls.of(side).filter_map(middle).collect();
+        let places: Vec<Vec3> = footfalls.of(side).filter_map(middle).map(|(place, _)| place).collect();
         ways.extend(places.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
     }
-    median(ways)
+    let of_pair = |pair: &[Footfall]| {
+        let ((from, forward), (to, _)) = (middle(&pair[0])?, middle(&pair[1])?);
+        (pair[0].side != pair[1].side).then(|| 2.0 * (to - from).dot(&forward).abs())
+    };
+    median(ways).or_else(|| median(footfalls.falls.windows(2).filter_map(of_pair)))
 }
 
 /// Length of the path in pieces [m].
@@ -187,7 +208,7 @@ fn turn(instants: &[Instant], grid: TimeGrid) -> f64 {
     range(&means)
 }
 
-/// First and last instant of the longest time in which no foot is on the ground and the motion needs hardly any upward
+/// First and last instant of the longest time in which no foot is on the ground and the motion needs almost no upward
 /// force [s].
 fn longest_flight(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls, edge: usize) -> Option<[f64; 2]> {
     let (grid, up) = (trajectory.grid(), model.up());

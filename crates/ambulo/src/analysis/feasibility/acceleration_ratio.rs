@@ -45,7 +45,7 @@ impl AccelerationRatio {
         self.frames.push(ComparedFrame { number, needed: measured + frame.residual.force, measured });
     }
 
-    /// The slope; `None` where the velocity hardly changes.
+    /// The slope; `None` if the velocity is almost constant.
     fn ratio(&self, step_s: f64, mass_kg: f64) -> Option<f64> {
         let (mut product, mut square) = (0.0, 0.0);
         for run in self.frames.chunk_by(|a, b| a.number + 1 == b.number) {

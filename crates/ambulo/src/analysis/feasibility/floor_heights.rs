@@ -1,7 +1,7 @@
 //! Height of the ground under each foot, where no load shows it.
 //!
 //! On level ground it is the median height of the centres of pressure. On stairs each stance has its own height, which
-//! the motion shows. The motion is believed only where it agrees with the loads: the soles of a body that hovers above
+//! the motion shows. The motion is used only where it agrees with the loads: the soles of a body that hovers above
 //! the centres of pressure stand on nothing. Pinned by: tests/feasibility_motions.rs
 
 use super::frame::NEAR_GROUND_M;
@@ -15,7 +15,7 @@ use crate::spatial::Vec3;
 
 /// Heights of the ground over time [m].
 pub(super) struct FloorHeights {
-    /// Of the loads.
+    /// Usual height of the loads [m].
     usual: f64,
     /// Stances with their heights, in order of time.
     stances: BySide<Vec<([f64; 2], f64)>>,

@@ -128,7 +128,7 @@ impl FeasibilityLimits {
         }
     }
 
-    /// Whether a coordinate is checked: a free rotation other than those of the root.
+    /// Whether a coordinate is checked: a free rotation that does not belong to the root.
     #[must_use]
     pub(crate) fn covers(&self, id: CoordinateId) -> bool {
         self.coordinates[id.index()].is_judged

@@ -24,7 +24,7 @@ const EDGE_S: f64 = 0.1;
 /// Measured forces that carry the body in a smaller share of the frames do not belong to this motion, and are not
 /// replaced by a prediction.
 const LEAST_MEASURED_SHARE: f64 = 0.1;
-/// Forces that carry less of the weight than this, in all frames in which none seems to be missing, were not measured:
+/// Forces that carry less of the weight than this, in all frames without a missing force, were not measured:
 /// the plates were off.
 const LEAST_CARRIED: f64 = 0.1;
 /// A foot leaves the edge of a force plate within this time [s].
@@ -151,7 +151,7 @@ fn slot(model: &Model, measurement: &CheckedValue) -> Option<usize> {
     }
 }
 
-/// Number of tracks before those of centres of pressure outside the sole.
+/// Number of tracks before the tracks of centres of pressure outside the sole.
 fn regular_slots(model: &Model) -> usize {
     OF_COORDINATES.len() * model.coordinates().len() + 2 * OF_FEET.len() + OF_BODY.len()
 }

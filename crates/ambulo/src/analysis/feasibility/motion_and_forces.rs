@@ -12,7 +12,7 @@ use crate::model::Model;
 pub struct MotionAndForces<'a> {
     /// The body.
     pub model: &'a Model,
-    /// Its motion.
+    /// Motion of the model.
     pub trajectory: &'a Trajectory,
     /// The forces of inverse dynamics or of a simulation.
     pub forces: &'a Forces,

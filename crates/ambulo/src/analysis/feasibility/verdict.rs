@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// Above this residual force [body weights, rms], motion, body and ground forces do not fit together: the quality is
-/// doubtful, and no motion is called feasible. Walks of seven people with every foot on a plate have 10 to 13 %
+/// doubtful, and no motion is called feasible. Walks of seven subjects with every foot on a plate have 10 to 13 %
 /// (tests/quality.rs), with the plates of another person 47 to 98 %.
 pub const LARGE_RESIDUAL_BW: f64 = 0.2;
 
@@ -173,13 +173,13 @@ impl Verdict {
     /// support the person, so the verdict is undecided, and reasons that come from these forces are dropped.
     pub(crate) fn add_unsupported(&mut self, found: &[Reason]) {
         let Some(first) = found.first() else { return };
-        let is_explained = |check| !matches!(check, Check::Range | Check::Pull);
+        let is_explained = |reason: &Reason| !matches!(reason.check, Check::Range | Check::Pull);
         self.set_aside(is_explained, undecided_by_other_support(&first.message));
     }
 
     /// Drops reasons that have a cause other than the movement; `why` the verdict is then undecided.
-    pub fn set_aside(&mut self, is_explained: impl Fn(Check) -> bool, why: String) {
-        self.reasons.retain(|reason| !is_explained(reason.check));
+    pub fn set_aside(&mut self, is_explained: impl Fn(&Reason) -> bool, why: String) {
+        self.reasons.retain(|reason| !is_explained(reason));
         self.undecided.push(why);
         self.state = VerdictState::of(&self.reasons, &self.undecided);
     }

@@ -15,7 +15,7 @@ use crate::model::{CoordinateId, Marker, Model, Movement, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Pose, Vec3};
 
-/// Smallest number of frames in which a marker of the standing trial counts as seen.
+/// Least number of frames in which a marker of the standing trial must be seen.
 const LEAST_FRAMES: usize = 3;
 /// Fewest markers that show the pose of a foot.
 const OF_A_POSE: usize = 3;

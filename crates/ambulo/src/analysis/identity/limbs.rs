@@ -8,8 +8,8 @@
 //! | foot | heel and front of the foot |
 //!
 //! Skin over the joints slides by 10 to 20 mm, 3 to 5 % of a limb and 10 % of the pelvis, but not on all of them;
-//! another person has other proportions. So it is another person's if the limbs differ by more than [`OTHER`] of their
-//! lengths, root mean square: one marker that slides by 20 mm cannot do that.
+//! another person has other proportions. The standing trial is attributed to another person if the limbs differ by more
+//! than [`OTHER`] of their lengths, root mean square, which one marker that slides by 20 mm cannot cause.
 
 use super::Contradictions;
 use super::landmark_paths::{FRONTS, LandmarkPaths};
@@ -75,7 +75,7 @@ pub(crate) fn difference(own: &[(String, f64)], other: &[(String, f64)]) -> Opti
     (ratios.len() >= FEWEST).then(|| rms(&ratios))
 }
 
-/// Reports a standing trial whose limbs are those of another person.
+/// Reports a standing trial of another person, recognised by the lengths of the limbs.
 pub(in crate::analysis) fn report_other_limbs(
     moving: &MarkerRecording,
     standing: &MarkerRecording,

@@ -32,13 +32,13 @@ use crate::motion::MarkerRecording;
 use landmark_paths::LandmarkPaths;
 use std::borrow::Cow;
 
-/// What contradicts the labels or the standing trial of a person, one sentence each.
+/// Evidence against the labels or the standing trial of a person, one sentence each.
 pub(super) type Contradictions = Vec<String>;
 
-/// Reports a standing trial that is not that of the person of a motion, or whose markers are not those of the motion.
+/// Reports a standing trial of another person, and markers that moved between standing trial and motion.
 ///
-/// One or two markers that moved change the lengths of limbs too, so that these are asked only where they differ so
-/// much, or where no single marker explains it.
+/// One or two moved markers change the lengths of limbs too. The lengths are therefore used only where they differ by
+/// more than that, or where no single marker explains the difference.
 pub(super) fn report_standing_trial(
     [moving, standing]: [&MarkerRecording; 2],
     moved: &[String],
@@ -48,6 +48,7 @@ pub(super) fn report_standing_trial(
 ) {
     const BY_FAR: f64 = 2.0;
     let share = limb_difference(&limb_lengths(moving, set), &limb_lengths(standing, set)).unwrap_or(0.0);
+    eprintln!("DBG limbs {share:.4} moved {moved:?} {:?} {:?}", limb_lengths(moving, set), limb_lengths(standing, set));
     let are_few = (1..moved::ANOTHER_PERSON).contains(&moved.len());
     if share > BY_FAR * OTHER_LIMBS || share > OTHER_LIMBS && !are_few {
         limbs::report_other_limbs(moving, standing, set, contradictions, findings);

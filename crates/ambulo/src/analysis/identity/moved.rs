@@ -10,8 +10,8 @@
 //! with [`MOVED_SKIN_M`] for markers of the pelvis, where soft tissue lies under the skin, and for those that show no
 //! joint.
 //!
-//! A distance along a limb changes by d; one across it only in the second order, which is why the whole body is asked
-//! and not distances alone.
+//! A displacement along a limb changes its length by d, a displacement across it only in the second order. The whole
+//! body is therefore fitted, and distances alone are not used.
 
 use super::super::subject::Subject;
 use super::Contradictions;
@@ -30,19 +30,19 @@ const MOVED_M: f64 = 0.025;
 const MOVED_SKIN_M: f64 = 0.035;
 /// How far the other markers must contradict it [m].
 const CONTRADICTED_M: f64 = 0.017;
-/// A marker that is nearer to its place although it pulls on the body itself is not asked [m]: √(r · r₀) is larger than
+/// Markers that are nearer to their place than this in the common fit are not tested [m]: √(r · r₀) is larger than
 /// [`CONTRADICTED_M`] only if r is, or if the marker determines the body almost alone.
 const SUSPICIOUS_M: f64 = 0.008;
-/// Most markers that are asked, those furthest from their places.
+/// Largest number of markers that are tested: the ones furthest from their places.
 const MOST_ASKED: usize = 4;
 /// Frames of the motion, spread over it.
 const FRAMES: usize = 12;
-/// So many markers do not move at once: the body is another person's, or all were put on anew.
+/// If this many markers seem to have moved, the body is another person's, or all markers were put on again.
 pub(super) const ANOTHER_PERSON: usize = 3;
 
 /// The markers of legs and pelvis that moved, each with distance and direction; no more than show another person.
 pub(in crate::analysis) fn moved(subject: &Subject, moving: &MarkerRecording, settings: &FitSettings) -> Vec<String> {
-    let sample = sample(moving);
+    let sample = moving.sample(FRAMES);
     let mut fitter = Fitter { subject, sample: &sample, settings, left_out: Vec::new() };
     let mut moved = Vec::new();
     while moved.len() < ANOTHER_PERSON {
@@ -81,21 +81,6 @@ fn way(away: Vec3) -> &'static str {
         [["further forward", "further backward"], ["higher", "lower"], ["to the right", "to the left"]];
     let axis = away.iamax();
     WAYS[axis][usize::from(away[axis] < 0.0)]
-}
-
-/// Frames spread over a recording.
-fn sample(recording: &MarkerRecording) -> MarkerRecording {
-    let step = recording.frames().div_ceil(FRAMES).max(1);
-    let path = |path: &MarkerPath| MarkerPath {
-        name: path.name.clone(),
-        positions: path.positions.iter().copied().step_by(step).collect(),
-    };
-    MarkerRecording {
-        name: recording.name.clone(),
-        rate_hz: recording.rate_hz / step as f64,
-        times: recording.times.iter().copied().step_by(step).collect(),
-        markers: recording.markers.iter().map(path).collect(),
-    }
 }
 
 struct Fitter<'a> {

@@ -8,7 +8,7 @@ use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use crate::motion::MarkerRecording;
 use std::collections::BTreeMap;
 
-/// What separates the name of a person from that of a marker.
+/// The separator between the name of a person and the name of a marker.
 const SEPARATORS: [char; 6] = [':', '|', '.', '_', '-', ' '];
 /// The person whose markers have no prefix, if others have one.
 const WITHOUT: &str = "without prefix";
@@ -18,8 +18,7 @@ const FEWEST: usize = 8;
 /// Markers of each person, as numbers and names without the prefix.
 type People<'a> = BTreeMap<&'a str, Vec<(usize, &'a str)>>;
 
-/// The people whose markers are in a recording, by the prefixes of the names; empty if the names tell of no more than
-/// one.
+/// The people whose markers are in a recording, by the prefixes of the names; empty if there are fewer than two.
 pub(crate) fn people_in(markers: &MarkerRecording) -> Vec<String> {
     people(markers).map_or_else(Vec::new, |people| people.into_keys().map(str::to_owned).collect())
 }

@@ -8,9 +8,9 @@
 //!
 //! In a person every pair of hips, knees, ankles and shoulders has v > 0. If nearly all are negative, the labels are
 //! exchanged, or one axis of the laboratory is mirrored (left-handed axes): the markers of a symmetric body cannot tell
-//! these apart. Exchanged labels are the usual fault, of automatic labelling when a person comes from the other side,
-//! so they are exchanged back; the finding names both, and the quality is not good, because the sides of the results
-//! depend on it.
+//! these apart. Exchanged labels are the more frequent fault: automatic labelling makes it when a person comes from the
+//! other side. They are therefore exchanged back. The finding names both causes, and the quality is not good, because
+//! the sides of the results depend on the cause.
 
 use super::Contradictions;
 use super::landmark_paths::LandmarkPaths;
@@ -89,8 +89,7 @@ pub(super) fn exchanged_back(
     Some(with_exchanged(paths, &pairs))
 }
 
-/// Exchanges the positions of every pair. Markers of one leg or arm alone have nobody to exchange with and are left
-/// out.
+/// Exchanges the positions of every pair. Markers without a counterpart on the other side keep their positions.
 fn with_exchanged(paths: &LandmarkPaths<'_>, pairs: &[Pair<'_>]) -> MarkerRecording {
     let mut recording = paths.recording.clone();
     for Pair { numbers: [right, left], .. } in pairs {

@@ -8,7 +8,7 @@ use crate::model::Side;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use std::ops::Range;
 
-/// Below this speed over the floor the person stays in place [m/s].
+/// Speed over the floor below which the person stays in place [m/s].
 const UNDER_WAY_M_S: f64 = 0.2;
 
 /// Allowed difference of the mean vertical force from body weight, as a share of it.
@@ -82,7 +82,7 @@ fn balance(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Balance>
     Some(Balance { time_s, feet: feet.dot(&record.up), total: total.dot(&record.up), along })
 }
 
-/// From the first to the last strike of a foot's whole cycles; the longer one of both feet.
+/// Time from the first to the last strike of a foot's whole cycles; the longer one of both feet.
 fn whole_cycles(evidence: &CheckedPrediction<'_>, record: &Record) -> Option<Range<usize>> {
     let frame = |time: f64| ((time - record.grid.start_s) / record.grid.step_s).round().max(0.0) as usize;
     let of_side = |side| {

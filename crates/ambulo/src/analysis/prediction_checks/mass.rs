@@ -20,7 +20,7 @@ const VELOCITY_ERROR_M_S: f64 = 0.4;
 pub struct PlateMass {
     /// Mass [kg].
     pub kg: f64,
-    /// How it was measured.
+    /// Measurement of the mass.
     pub(crate) by: Weighing,
 }
 
@@ -33,7 +33,7 @@ pub(crate) enum Weighing {
         /// Duration of the window [s].
         duration_s: f64,
     },
-    /// In a standing trial.
+    /// A standing trial.
     Standing,
 }
 

@@ -4,21 +4,22 @@
 //! through the feet. These checks test the assumption: the whole body's wrench is low-passed at 3.5 Hz and compared
 //! with the soles in stance.
 //!
-//! | check                   | value                                                                             | allowed          |
-//! |-------------------------|-----------------------------------------------------------------------------------|------------------|
-//! | `vertical_force_feet`   | mean vertical force of the predicted feet over whole cycles [BW]                  | 1 ± 0.05         |
-//! | `vertical_force_needed` | mean vertical force that the motion needs over whole cycles [BW]                  | 1 ± 0.05         |
-//! | `fore_aft_impulse`      | mean force of the feet along the walking direction, less m Δv / T [BW]            | ± 0.03           |
-//! | `center_of_pressure`    | distance of the needed centre of pressure outside the soles for 0.1 s [m]         | 0.03             |
-//! | `forward_offset`        | its mean distance ahead of the balls or (negative) behind the heels [m]           | ± 0.03           |
-//! | `sideways_offset`       | mean distance of the total force to the right of the middle of the feet [m]       | ± 0.03           |
-//! | `friction`              | horizontal over vertical force of a foot in stance for 0.03 s                     | 0.6              |
-//! | `held_without_feet`     | vertical force needed for 0.1 s while no foot is in stance [BW]                   | 0.2              |
-//! | `pull`                  | smallest vertical force needed for 0.1 s [BW]                                     | above -0.15      |
-//! | `mass`                  | body mass by force plates or a standing trial over the model's                    | 1 ± 0.05, more if plates measured less than a cycle |
+//! | check                   | value                                                                    | allowed |
+//! |-------------------------|--------------------------------------------------------------------------|---|
+//! | `vertical_force_feet`   | mean vertical force of the predicted feet over whole cycles [BW]         | 1 ± 0.05 |
+//! | `vertical_force_needed` | mean vertical force that the motion needs over whole cycles [BW]         | 1 ± 0.05 |
+//! | `fore_aft_impulse`      | mean force of the feet along the walking direction, less m Δv / T [BW]   | ± 0.03 |
+//! | `center_of_pressure`    | distance of the needed centre of pressure outside the soles for 0.1 s [m] | 0.03 |
+//! | `forward_offset`        | its mean distance ahead of the balls or (negative) behind the heels [m]  | ± 0.03 |
+//! | `sideways_offset`       | mean distance of the total force to the right of the middle of the feet [m] | ± 0.03 |
+//! | `friction`              | horizontal over vertical force of a foot in stance for 0.03 s            | 0.6 |
+//! | `held_without_feet`     | vertical force needed for 0.1 s while no foot is in stance [BW]          | 0.2 |
+//! | `pull`                  | smallest vertical force needed for 0.1 s [BW]                            | above -0.15 |
+//! | `mass`                  | body mass by plates or a standing trial over the model's                 | 1 ± 0.05 |
 //!
 //! An offset of the model's mass centre is not subtracted; the tolerances include it. From the motion alone every force
-//! scales with the mass, so only the last check detects a wrong mass.
+//! scales with the mass, so only the last check detects a wrong mass; its limit is wider if plates measured less than a
+//! cycle.
 //! [`Thresholds`] has the limits of friction and of the centre of pressure.
 //! Cost: linear in frames, about 300 bytes per frame of memory.
 //! Not handled: support that moves along with the person; equal external loads on both sides.

@@ -7,7 +7,7 @@ use super::sustained::sustained_maximum;
 use crate::analysis::feasibility::Check;
 use crate::findings::Code;
 
-/// In real flight the low-passed vertical force is below this [body weights].
+/// Largest low-passed vertical force in real flight [body weights].
 const HELD_BW: f64 = 0.2;
 /// Noise of the acceleration causes downward forces smaller than this [body weights].
 const PULL_BW: f64 = -0.15;

@@ -15,8 +15,8 @@
 //! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height
 //! limit for the strike is unverified.
 //!
-//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: its speed is that
-//! of the foot markers while they are low. Times of extrema are those of a parabola through three samples.
+//! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: the speed of the
+//! floor is the speed of low foot markers. Times of extrema come from a parabola through three samples.
 //! Pinned by: tests/foot_motion.rs, tests/laboratory_files.rs
 
 mod agreement;
@@ -31,7 +31,7 @@ use agreement::agreed;
 use methods::events_of;
 use signals::{Foot, floor_speed, foot, mean_path, mean_rate};
 
-/// Below this speed the person is standing [m/s].
+/// Speed below which the person is standing [m/s].
 const SLOWEST_WALK_M_S: f64 = 0.15;
 
 /// A method that detects foot strikes and foot offs in marker trajectories.
@@ -48,7 +48,7 @@ pub(crate) enum EventMethod {
 }
 
 impl EventMethod {
-    /// All of them.
+    /// All methods.
     pub(crate) const ALL: [EventMethod; 4] =
         [EventMethod::PelvisDistance, EventMethod::FootVelocity, EventMethod::FootSpeed, EventMethod::FootAcceleration];
 

@@ -1,8 +1,8 @@
 //! Velocity of the floor: of the belt of a treadmill, or zero.
 //!
 //! While the body is supported, the lower foot is usually in stance, and moves with the floor. The velocities of the
-//! lowest point of both feet therefore cluster at the velocity of the floor; those of swinging feet scatter. The centre
-//! of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). Pieces of the
+//! lowest point of both feet therefore cluster at the velocity of the floor; velocities of swinging feet scatter. The
+//! centre of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). Pieces of the
 //! recording are evaluated separately as well, so that a belt may change its speed slowly.
 
 use super::signals::Signals;
@@ -16,7 +16,7 @@ const CARRIED: f64 = 0.5;
 const LEVEL: f64 = 0.05;
 /// Radius of a cluster of velocities, as a share of √(g L).
 const TOGETHER: f64 = 0.1;
-/// Below this share of √(g L), 0.09 m/s for an adult, the floor is at rest: stance feet appear to creep by 0.03 m/s.
+/// Speed at which the floor is at rest, as a share of √(g L) (0.09 m/s for an adult): stance feet creep by 0.03 m/s.
 const RESTS: f64 = 0.03;
 /// A belt whose speed changes by less than this share of √(g L) has a constant speed.
 const EVEN: f64 = 0.05;

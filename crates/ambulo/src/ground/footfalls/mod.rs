@@ -41,9 +41,9 @@
 //! exceeds 30 ms.
 //!
 //! V/2 and the fastest descent have no fitted parameter, but were selected from some twenty signals with these
-//! recordings. Factor and power of the off ([`OffSpeed`]) are the best of a grid over these six people (each counts
+//! recordings. Factor and power of the off ([`OffSpeed`]) are the best of a grid over these six subjects (each counts
 //! once: 10.1 ms). Leave-one-out errors are 2 to 30 ms, on average 12.5 ms. An offset fitted to the others increases
-//! the error of most people, so there is none. tests/footfalls.rs repeats both.
+//! the error of most subjects, so there is none. tests/footfalls.rs repeats both.
 //!
 //! Sources: Ghoussayni, Stevens, Durham, Ewins 2004 and Bruening, Ridge 2014 (thresholds of speed), O'Connor, Thorpe,
 //! O'Malley, Vaughan 2007 (vertical velocity), as described in a review (cited in [`super::foot_motion`]); Hof,
@@ -76,7 +76,7 @@ use std::ops::Range;
 /// One stance of one foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footfall {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Foot strike [s]; `None` if the foot was on the ground when the recording began.
     pub strike_s: Option<f64>,
@@ -91,7 +91,7 @@ pub struct Footfall {
 /// The stances of both feet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footfalls {
-    /// In order of time.
+    /// Footfalls in order of time.
     pub falls: Vec<Footfall>,
     /// Velocity of the floor over the whole recording [m/s]; exactly zero if it does not move.
     pub floor_velocity: Vec3,

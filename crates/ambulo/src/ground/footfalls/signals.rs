@@ -53,7 +53,7 @@ pub(in crate::ground) struct SignalFrame {
 }
 
 impl SignalFrame {
-    /// From the motion of all bodies.
+    /// Computes the signals from the motion of all bodies.
     pub(in crate::ground) fn of(model: &Model, soles: &BySide<Option<Sole>>, bodies: &[BodyMotion]) -> SignalFrame {
         let whole = WholeBody::of(model, bodies);
         SignalFrame {

@@ -122,7 +122,7 @@ fn both_feet(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2]) ->
         .then(|| format!("the right foot was on it for {right:.2} s, the left foot for {left:.2} s"))
 }
 
-/// How long the foot was on this plate during the span [s].
+/// Time that the foot was on this plate during the span [s].
 fn time_on_plate(feet: &FeetInMotion<'_>, plate: &PlateRecording, span: [f64; 2], side: Side) -> f64 {
     let times = feet.markers.times.iter().filter(|t| (span[0]..=span[1]).contains(*t));
     let frames = times.filter(|t| feet.is_on(side, plate, **t)).count();

@@ -2,10 +2,11 @@
 //!
 //! FORCE_PLATFORM:CORNERS states the axes of a plate by the order of its corners. Of the eight orders that keep
 //! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at
-//! a distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the
-//! plate. Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre
-//! in every step (the moment about the mass centre is small), so that it correlates with the direction from the centre
-//! of pressure to the middle of the pelvis, along the foot with r₁ and across it with r₂. Means are not removed.
+//! a distance d from the line from heel to toe. The others turn or reverse its path about the middle of the plate.
+//! Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre in
+//! every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the agreement
+//! r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the correlation
+//! s.
 //!
 //! ```text
 //! cost = (d / 30 mm)² + ((1 - r₁) / 0.3)² + ((1 - r₂) / 0.5)²
@@ -14,11 +15,12 @@
 //! In 194 plates of 111 clean recordings (9 laboratories) d is 3 to 29 mm, r₁ 0.85 to 1, r₂ 0.5 to 1 with one exception
 //! each, and the true order has the least cost of the eight in all of them.
 //!
-//! An order is changed only if that of the file fails clearly, also by its centre of pressure: a channel with the wrong
+//! An order is changed only if the file's order fails clearly, also by its centre of pressure: a channel with the wrong
 //! sign alone is no matter of corners. All plates are judged together first, because a laboratory makes the same error
 //! with all of them, then each alone.
 //! Pinned by: tests/plate_orders.rs
 
+use super::super::lever_rule::LeverRule;
 use super::feet::FeetInMotion;
 use crate::findings::{Code, Findings};
 use crate::ground::phases::contacts_from_force;
@@ -32,10 +34,15 @@ const DEVIATIONS: [f64; 3] = [0.03, 0.3, 0.5];
 const FAILS: f64 = 9.0;
 /// ... and a centre of pressure that is nearer to the feet by this [m]. Wrong signs of channels move it by up to 15 mm.
 const NEARER_M: f64 = 0.02;
+/// The same distance, by the error of markers and of the line of the foot [m].
+const SAME_M: f64 = 0.005;
+/// The centre of pressure leads along the foot, or back, by this correlation with the pelvis: in clean recordings it is
+/// above 0.8.
+const LEADS: f64 = 0.5;
 /// An order is right below this cost and this distance [m].
 const RIGHT: f64 = 12.0;
 const RIGHT_M: f64 = 0.05;
-/// The right order has a cost that is less than that of the next by this.
+/// The cost of the right order is at least this much below the cost of the next order.
 const DISTINCT: f64 = 1.0;
 /// Distances are counted up to this [m].
 const FARTHEST_M: f64 = 0.4;
@@ -43,19 +50,44 @@ const FARTHEST_M: f64 = 0.4;
 const STEP_S: [f64; 2] = [0.15, 1.6];
 /// Loads from this share of the largest force of the plates show the centre of pressure.
 const SOLID: f64 = 0.3;
-/// Samples that are looked at in a step.
+/// Number of samples evaluated per step.
 const SAMPLES: usize = 40;
 
-/// How the loads of some plates lie with their corners in one order.
+/// Fit of the loads of some plates to the feet, with one order of corners.
 #[derive(Debug, Clone, Copy, Default)]
 struct Fit {
     /// Sum of the distances from the nearer foot [m], and their number.
     distance: f64,
     count: f64,
-    /// Sums of the products of horizontal forces with those of the lever rule along the foot and across it, and of the
-    /// squares of both.
-    products: [f64; 2],
-    squares: [[f64; 2]; 2],
+    /// Agreement of the horizontal force along the foot (0) and across it (1).
+    lever: LeverRule,
+    path: Path,
+}
+
+/// Sums for the correlation of the centre of pressure with the pelvis, along the foot.
+#[derive(Debug, Clone, Copy, Default)]
+struct Path {
+    count: f64,
+    /// Of the places of both along the foot [m].
+    sums: [f64; 2],
+    /// Of their squares, and of their product [m²].
+    squares: [f64; 2],
+    product: f64,
+}
+
+impl Path {
+    fn add(&mut self, [pressure, body]: [f64; 2]) {
+        self.count += 1.0;
+        self.sums = [self.sums[0] + pressure, self.sums[1] + body];
+        self.squares = [self.squares[0] + pressure * pressure, self.squares[1] + body * body];
+        self.product += pressure * body;
+    }
+
+    fn correlation(&self) -> f64 {
+        let mean = self.sums.map(|sum| sum / self.count);
+        let spread = [0, 1].map(|k| (self.squares[k] - self.count * mean[k] * mean[k]).max(0.0));
+        (self.product - self.count * mean[0] * mean[1]) / (spread[0] * spread[1]).sqrt()
+    }
 }
 
 impl Fit {
@@ -63,15 +95,9 @@ impl Fit {
         self.distance / self.count
     }
 
-    /// Correlation of the force along the foot (0) or across it (1) with the lever rule, without removing means.
-    fn lever(&self, axis: usize) -> f64 {
-        let [measured, expected] = self.squares[axis];
-        self.products[axis] / (measured * expected).sqrt()
-    }
-
     /// The squared deviation from a right order; what is not known does not count.
     fn cost(&self) -> f64 {
-        let off = [self.distance_m(), 1.0 - self.lever(0), 1.0 - self.lever(1)];
+        let off = [self.distance_m(), 1.0 - self.lever.agreement(0), 1.0 - self.lever.agreement(1)];
         let squares = off.iter().zip(DEVIATIONS).map(|(off, deviation)| (off / deviation).powi(2));
         squares.filter(|square| square.is_finite()).sum()
     }
@@ -84,8 +110,10 @@ impl Fit {
 /// A plate with loads of whole steps.
 struct Loaded {
     plate: usize,
-    /// One per order.
+    /// Fits, one per order of the corners.
     fits: Vec<Fit>,
+    /// Whether the file has the force of the foot on the plate, so that all signs were reversed.
+    is_reversed: bool,
 }
 
 /// The plates with corners in the order that puts their loads under the feet.
@@ -95,10 +123,16 @@ pub(super) fn in_order(
     findings: &mut Findings,
 ) -> Vec<PlateRecording> {
     let highest = plates.iter().map(PlateRecording::peak_n).fold(0.0, f64::max);
-    let loaded: Vec<Loaded> = (0..plates.len()).filter_map(|i| loaded(feet, &plates, i, SOLID * highest)).collect();
+    let is_reversed = |i: usize| {
+        let own = format!("force of {} points", plates[i].name);
+        findings.as_slice().iter().any(|f| f.code == Code::PlatesForceOnPlate && f.message.contains(&own))
+    };
+    let loaded: Vec<Loaded> = (0..plates.len())
+        .filter_map(|i| Some(Loaded { is_reversed: is_reversed(i), ..loaded(feet, &plates, i, SOLID * highest)? }))
+        .collect();
     let together = better_order(&loaded.iter().collect::<Vec<_>>());
     for own in &loaded {
-        let Loaded { plate, fits } = own;
+        let Loaded { plate, fits, .. } = own;
         let found = together.or_else(|| better_order(&[own]));
         let Some((order, is_distinct)) = found else { continue };
         match plates[*plate].with_corners(CORNER_ORDERS[order]).filter(|_| is_distinct) {
@@ -118,18 +152,39 @@ fn loaded(feet: &FeetInMotion<'_>, plates: &[PlateRecording], plate: usize, soli
     let excerpt = excerpt(&plates[plate], &samples);
     let fits: Option<Vec<Fit>> =
         CORNER_ORDERS.into_iter().map(|order| Some(fit(feet, &excerpt.with_corners(order)?))).collect();
-    fits.filter(|fits| fits.iter().all(|fit| fit.count > 0.0)).map(|fits| Loaded { plate, fits })
+    fits.filter(|fits| fits.iter().all(|fit| fit.count > 0.0)).map(|fits| Loaded { plate, fits, is_reversed: false })
 }
 
-/// The order that is right for all of these plates where that of the file fails, and whether it is the only one.
+/// The order that is right for all of these plates where the file's order fails, and whether it is the only one.
 fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let is_right = |order: &usize| plates.iter().all(|plate| plate.fits[*order].is_right());
+    // The centre of pressure runs from heel to toe; no wrong sign of a force turns its way round.
+    let runs_back = |order: usize| plates.iter().all(|plate| plate.fits[order].path.correlation() < -LEADS);
+    let runs_forth = |order: usize| plates.iter().all(|plate| plate.fits[order].path.correlation() > LEADS);
+    // Reversed corners reverse the vertical force and one horizontal one: two wrong signs with one cause.
+    let turns_over = |order: usize| order >= 4 && plates.iter().all(|plate| plate.is_reversed);
     let cost = |order: usize| plates.iter().map(|plate| plate.fits[order].cost()).sum::<f64>();
     let away_m = |order: usize| plates.iter().map(|plate| plate.fits[order].distance_m()).sum::<f64>();
     let mut right: Vec<usize> = (0..CORNER_ORDERS.len()).filter(is_right).collect();
     right.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
     let best = *right.first().filter(|_| !plates.is_empty())?;
-    let fails = cost(0) > cost(best) + FAILS && away_m(0) > away_m(best) + NEARER_M * plates.len() as f64;
+    let nearer_m = (away_m(0) - away_m(best)) / plates.len() as f64;
+    let is_moved = nearer_m > NEARER_M || runs_back(0) && runs_forth(best) || turns_over(best) && nearer_m > -SAME_M;
+    let fails = cost(0) > cost(best) + FAILS && is_moved;
+    for p in plates {
+        for (k, f) in p.fits.iter().enumerate() {
+            eprintln!(
+                "DBG corners plate {} order {k} d {:.1} r {:.2} {:.2} path {:.2} cost {:.1} rev {}",
+                p.plate + 1,
+                1e3 * f.distance_m(),
+                f.lever.agreement(0),
+                f.lever.agreement(1),
+                f.path.correlation(),
+                f.cost(),
+                p.is_reversed
+            );
+        }
+    }
     let is_distinct = right.get(1).is_none_or(|next| cost(*next) > cost(best) + DISTINCT);
     fails.then_some((best, is_distinct))
 }
@@ -160,7 +215,7 @@ fn excerpt(plate: &PlateRecording, samples: &[usize]) -> PlateRecording {
     }
 }
 
-/// How the loads of all samples lie.
+/// Fit of the loads of all samples.
 fn fit(feet: &FeetInMotion<'_>, plate: &PlateRecording) -> Fit {
     let mut fit = Fit::default();
     for i in 0..plate.times.len() {
@@ -173,13 +228,9 @@ fn fit(feet: &FeetInMotion<'_>, plate: &PlateRecording) -> Fit {
         let (Some(body), Some(along)) = (feet.body_center(time_s), feet.direction(side, plate.up, time_s)) else {
             continue;
         };
-        let arm = body - center;
-        let expected = arm * (plate.vertical(i) / arm.dot(&plate.up));
-        for (axis, direction) in [along, plate.up.cross(&along)].iter().enumerate() {
-            let [force, expected] = [plate.force[i], expected].map(|v| v.dot(direction));
-            fit.products[axis] += force * expected;
-            fit.squares[axis][0] += force * force;
-            fit.squares[axis][1] += expected * expected;
+        fit.lever.add(plate.force[i], body - center, plate.up, [along, plate.up.cross(&along)]);
+        if let Some([heel, _]) = feet.line(side, time_s) {
+            fit.path.add([center, body].map(|place| (place - heel).dot(&along)));
         }
     }
     fit

@@ -1,8 +1,8 @@
 //! Removes the load that a plate shows under no foot while another plate is loaded: cross-talk.
 //!
 //! Amplifiers and cables let a part of one plate's signal appear in another, and a floor carries a part of a step to
-//! the next plate. Such a load is small, lasts as long as that of the loaded plate, and no foot stands on the plate. It
-//! exceeds 20 N for seconds, so that the plate seems loaded long before a foot is on it.
+//! the next plate. Such a load is small, lasts as long as the load of the loaded plate, and no foot stands on the
+//! plate. It exceeds 20 N for seconds, so that the plate seems loaded long before a foot is on it.
 //! Pinned by: tests/feet_on_plates.rs
 
 use super::feet::FeetInMotion;
@@ -20,7 +20,7 @@ const OF_OTHERS: f64 = 0.1;
 const MOST_N: f64 = 60.0;
 /// The load of the other plates at the same time, as a share of the largest force.
 const OTHERS_LOADED: f64 = 0.2;
-/// It lasts at least this long [s]; a foot loads a plate to more than cross-talk within 0.02 s.
+/// Shortest cross-talk [s]; a foot loads a plate to more than cross-talk within 0.02 s.
 const SHORTEST_S: f64 = 0.1;
 /// A foot may be on the plate in this share of the time: errors of its events.
 const FOOT_SHARE: f64 = 0.2;
@@ -64,8 +64,8 @@ fn source(plates: &[PlateRecording], plate: usize, spans: &[[usize; 2]]) -> Vec<
     (0..samples).map(|i| source.map_or(0.0, |source| source.vertical(i))).collect()
 }
 
-/// Removes cross-talk where it is seen alone, and what it adds while a foot is on the plate as well: the same share of
-/// the other plates' force, or the same amount, whichever describes it better where it is alone.
+/// Removes cross-talk where it occurs alone, and its part while a foot is on the plate. This part is the same share of
+/// the other plates' force, or the same amount, whichever fits better where cross-talk is alone.
 fn subtract(values: &mut [Vec3], spans: &[[usize; 2]], source: &[f64]) {
     let alone =
         || spans.iter().flat_map(|[first, end]| *first..*end).filter(|i| source[*i] > CENTER_OF_PRESSURE_LOAD_N);

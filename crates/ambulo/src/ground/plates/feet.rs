@@ -18,7 +18,7 @@ const ON_PLATE_M: [f64; 2] = [-0.08, 0.14];
 pub(crate) struct FeetInMotion<'a> {
     /// The markers.
     pub markers: &'a MarkerRecording,
-    /// Which of them are on the feet.
+    /// Landmarks of the feet among the markers.
     pub landmarks: Landmarks,
     /// Their strikes and offs.
     pub motion: &'a FootMotion,
@@ -83,10 +83,10 @@ impl FeetInMotion<'_> {
         is_over && off_level_m(&line, plate) == 0.0 && self.stands(side, time_s)
     }
 
-    /// Whether heel and toe are over the plate, at the height of a foot that stands on it.
-    pub(super) fn is_inside(&self, side: Side, plate: &PlateRecording, time_s: f64) -> bool {
-        let Some(line) = self.line(side, time_s) else { return false };
-        line.iter().all(|p| plate.depth_inside(*p) > OVER_EDGE_M) && off_level_m(&line, plate) == 0.0
+    /// How many of heel and toe are over the plate, at the height of a foot that stands on it.
+    pub(super) fn ends_inside(&self, side: Side, plate: &PlateRecording, time_s: f64) -> usize {
+        let Some(line) = self.line(side, time_s).filter(|line| off_level_m(line, plate) == 0.0) else { return 0 };
+        line.iter().filter(|end| plate.depth_inside(**end) > OVER_EDGE_M).count()
     }
 
     fn stands(&self, side: Side, time_s: f64) -> bool {
@@ -109,7 +109,7 @@ impl FeetInMotion<'_> {
     }
 }
 
-/// By how much the lower end of a foot is above or below the heights of a foot on the plate [m].
+/// Distance of the lower end of a foot above or below the heights of a foot on the plate [m].
 fn off_level_m(line: &[Vec3; 2], plate: &PlateRecording) -> f64 {
     let height = |p: &Vec3| (p - plate.center()).dot(&plate.up);
     let lower = height(&line[0]).min(height(&line[1]));

@@ -1,4 +1,4 @@
-//! Assigns force plates to feet, and finds out whether a plate measured all of a foot's load.
+//! Assigns force plates to feet, and determines whether a plate measured all of a foot's load.
 //!
 //! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
 //! toe is nearest to the centre of pressure, averaged over the load, within 0.2 m (the limit in the documentation of
@@ -24,6 +24,7 @@ mod windows;
 pub(crate) use feet::FeetInMotion;
 
 use super::foot_motion::FootMotion;
+use super::phases::Contact;
 use crate::findings::{Code, Findings, word};
 use crate::model::{BodyId, BySide, Side};
 use crate::motion::{ForceRecording, Landmarks, MarkerRecording, PlateRecording};
@@ -89,7 +90,7 @@ pub struct FeetOnPlates {
     pub contacts: Vec<PlateContact>,
     /// Instrumented windows: times when the whole load of both feet was measured [s], the longest first.
     pub windows: Vec<[f64; 2]>,
-    /// Stances on plates that show no load in the whole trial.
+    /// Stances on plates that show no load during them.
     pub(crate) silent: Vec<SilentStance>,
 }
 
@@ -104,8 +105,8 @@ pub(crate) struct SilentStance {
     pub span: [f64; 2],
 }
 
-/// The plates as the feet on them show them: corners in the order that puts the loads under the feet, without
-/// cross-talk of one plate in another.
+/// Corrects plates by the feet on them: puts the corners into the order with which the loads are under the feet, and
+/// removes cross-talk between plates.
 #[must_use]
 pub fn plates_under_feet(
     markers: &MarkerRecording,
@@ -169,20 +170,32 @@ pub(crate) fn feet_in_motion_on_plates(
             total force and the residual force at the pelvis cannot be checked",
         );
     }
-    let is_silent = |index: &usize| found.iter().all(|contact| contact.plate != *index);
-    let without_load = (0..plates.len()).filter(is_silent);
-    let silent = without_load.flat_map(|index| silent_stances(feet, index, &plates[index])).collect();
+    let silent = (0..plates.len()).flat_map(|index| silent_stances(feet, index, &plates[index], &found)).collect();
     FeetOnPlates { contacts: found, windows, silent }
 }
 
-/// Whole stances with heel and toe inside a plate in the middle of the stance.
-fn silent_stances(feet: &FeetInMotion<'_>, plate: usize, recording: &PlateRecording) -> Vec<SilentStance> {
+/// Stances on a plate during which it shows no load.
+///
+/// The centre of pressure begins under the heel and ends under the toes. A whole stance with one of them on the plate
+/// loads it at some time; of one that the recording cuts, both must be on it.
+fn silent_stances(
+    feet: &FeetInMotion<'_>,
+    plate: usize,
+    recording: &PlateRecording,
+    found: &[PlateContact],
+) -> Vec<SilentStance> {
+    let is_loaded = |[from, to]: [f64; 2]| {
+        found.iter().any(|contact| contact.plate == plate && contact.start_s < to && contact.end_s > from)
+    };
     let of_side = |side: Side| {
-        let whole = feet.motion.contacts_of(side).iter().filter_map(|c| Some([c.strike_s?, c.off_s?]));
-        let stands = move |[from, to]: &[f64; 2]| {
-            [0.3, 0.45, 0.6].into_iter().all(|share| feet.is_inside(side, recording, from + share * (to - from)))
+        let stands = |contact: &Contact, [from, to]: [f64; 2]| {
+            let fewest = if contact.strike_s.is_some() && contact.off_s.is_some() { 1 } else { 2 };
+            let at = |share: f64| feet.ends_inside(side, recording, from + share * (to - from));
+            [0.3, 0.45, 0.6].into_iter().all(|share| at(share) >= fewest)
         };
-        whole.filter(stands).map(move |span| SilentStance { plate, side, span }).collect::<Vec<_>>()
+        let stances = feet.motion.contacts_of(side).iter().zip(feet.stances(side));
+        let silent = stances.filter(|(contact, span)| !is_loaded(*span) && stands(contact, *span));
+        silent.map(|(_, span)| SilentStance { plate, side, span }).collect::<Vec<_>>()
     };
     Side::BOTH.into_iter().flat_map(of_side).collect()
 }

@@ -52,7 +52,7 @@ pub fn center_path(
     level(path) + up * stance.height_m
 }
 
-/// Share of the way from heel to ball at a lean of the shank [rad]; `middle` and `width` are those of the step between
+/// Share of the way from heel to ball at a lean of the shank [rad]; `middle` and `width` describe the step between
 /// both.
 pub fn share(lean: f64, [middle, width]: [f64; 2]) -> f64 {
     let sigma = |lean: f64| 1.0 / (1.0 + exp((middle - lean) / width));

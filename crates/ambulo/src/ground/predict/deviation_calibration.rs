@@ -9,12 +9,12 @@
 //! laboratory was left out, by `cargo xtask fit-ground` (docs/measured/GROUND_FIT.md).
 //!
 //! The last terms come from the trial itself. m_F and m_P are what the estimate leaves of the force and of the moment
-//! that the motion requires ([`super::misfit`]): motion that contradicts itself, for want of markers or because it is
-//! fast, gives larger errors. F_side is the sideways force, for the force forward and sideways: in a turn both depend
-//! on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all people, among 0,
-//! 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which deviations
-//! calibrated on walks with all markers hold more than 85 % of the same walks without the markers above the pelvis (the
-//! last table of the page).
+//! that the motion requires ([`super::misfit`]): motion that contradicts itself, because markers are missing or because
+//! it is fast, gives larger errors. F_side is the sideways force, for the force forward and sideways: in a turn both
+//! depend on the direction of the foot's path. a and b were chosen by the likelihood of the errors of all subjects,
+//! among 0, 0.3, 0.5, 0.8 and 0, 0.06, 0.1, 0.14. c is the least share, among 0, 0.2, 0.3, 0.4, 0.5, with which
+//! deviations calibrated on walks with all markers hold more than 85 % of the same walks without the markers above the
+//! pelvis (the last table of the page).
 
 /// Factor k and floor for the standard deviation of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ impl DeviationScaling {
 /// Factors and floors of a component in each fifth of a stance.
 pub type ByFifth = [DeviationScaling; 5];
 
-/// Factor and floor at an elapsed share of the stance: those of the fifths, linear between their middles.
+/// Factor and floor at an elapsed share of the stance: one value per fifth, linear between the middles of the fifths.
 #[must_use]
 pub fn scaling_at(fifths: &ByFifth, phase: f64) -> DeviationScaling {
     let place = (5.0 * phase - 0.5).clamp(0.0, 4.0);
@@ -96,7 +96,7 @@ impl DeviationCalibration {
         (self.of_misfit * misfit.force[axis]).powi(2) + (of_sideways * sideways).powi(2)
     }
 
-    /// The same of the centre of pressure along (0) or across the foot (1) [m²].
+    /// Variance of the centre of pressure from the trial, along (0) or across the foot (1) [m²].
     #[doc(hidden)] // for tests
     pub fn center_of_trial(&self, axis: usize, misfit: &Misfit) -> f64 {
         (self.of_center_misfit * misfit.center[axis]).powi(2)

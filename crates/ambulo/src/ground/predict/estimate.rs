@@ -36,10 +36,10 @@ use super::unknowns::Unknowns;
 use crate::model::BySide;
 use std::ops::Range;
 
-/// Of a stance in progress at most this long is evaluated before the wanted frames, in √(L/g): most of two steps.
+/// Longest part of a stance in progress that is evaluated before the wanted frames, in √(L/g): most of two steps.
 const LONGEST_PAST: f64 = 4.0;
 
-/// The part of a motion that decides about the wanted frames.
+/// The part of a motion on which the wanted frames depend.
 struct Extent {
     stances: Vec<Stance>,
     /// Frames whose total wrench is compared.

@@ -25,7 +25,7 @@ const EVERY_S: f64 = 0.0125;
 const REACH: f64 = 3.5;
 /// A filter ends where its coefficients stay below this share of the largest.
 const NEGLIGIBLE: f64 = 0.01;
-/// Longest half of a filter [s]: that of the lowest cut-off frequency that a motion may have is cut there.
+/// Longest half of a filter [s]: a filter at the lowest allowed cut-off frequency is cut there.
 const LONGEST_S: f64 = 0.5;
 /// Frequencies of the quadrature for each bandwidth, up to this multiple of it.
 const PER_BANDWIDTH: usize = 50;
@@ -34,9 +34,9 @@ const HIGHEST: f64 = 3.0;
 /// The filters of both sides of the equations.
 #[derive(Debug, Clone)]
 pub(super) struct EvidenceFilters {
-    /// Of the force that the motion requires, and of most estimated forces.
+    /// Filter of the force that the motion requires, and of most estimated forces.
     pub(super) gaussian: EvidenceFilter,
-    /// Of the vertical force in running; `None` without running, or if the motion was not filtered.
+    /// Filter of the vertical force in running; `None` without running, or if the motion was not filtered.
     running: Option<EvidenceFilter>,
 }
 
@@ -123,7 +123,7 @@ impl EvidenceFilter {
         self.stride * (self.weights.len() - 1) + 1
     }
 
-    /// The same [s].
+    /// Half of its length, plus one frame [s].
     pub(super) fn reach_s(&self, grid: TimeGrid) -> f64 {
         self.reach_frames() as f64 * grid.step_s
     }

@@ -9,8 +9,8 @@
 //!
 //! The force leans towards the mass centre: sideways, and forward where there is no curve, F_h = k F_v × lever /
 //! height. In walking a foot pushes outwards briefly after its strike, as in all 16 stances of six straight trials
-//! (0.008 to 0.058 body weights). Moments are the free moment and those of a centre of pressure away from its expected
-//! path; their mean is zero.
+//! (0.008 to 0.058 body weights). Moments are the free moment, and moments of a centre of pressure away from its
+//! expected path; their mean is zero.
 
 use super::fitted_parameters::FittedParameters;
 use super::stance_curves::{AtSpeed, MeanAndDeviation, StanceCurves};

@@ -118,7 +118,7 @@ const ERRORS: ErrorsByDescent = ErrorsByDescent {
     ],
 };
 
-/// From the errors of subjects whose laboratory was left out.
+/// Calibration from the errors of subjects whose laboratory was left out.
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [

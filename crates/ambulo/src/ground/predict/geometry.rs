@@ -24,7 +24,7 @@ pub(in crate::ground) struct GeometryFrame {
 }
 
 impl GeometryFrame {
-    /// From the motion of all bodies.
+    /// Computes the geometry from the motion of all bodies.
     pub(in crate::ground) fn of(model: &Model, soles: &BySide<Sole>, bodies: &[BodyMotion]) -> GeometryFrame {
         let (mut center, mut velocity, mut whole) = (Vec3::zeros(), Vec3::zeros(), 0.0);
         for (body, motion) in model.bodies().iter().zip(bodies) {

@@ -25,7 +25,7 @@ const RUN_DEVIATION: f64 = 3.0;
 pub(super) struct FootLoads {
     pub(super) force: Vec<Vec3>,
     pub(super) center: Vec<Vec3>,
-    /// About the vertical through the centre of pressure [N.m].
+    /// Moment about the vertical through the centre of pressure [N.m].
     pub(super) free_moment: Vec<f64>,
     /// Height of the ground [m].
     pub(super) height: Vec<f64>,
@@ -37,7 +37,7 @@ pub(super) struct FootLoads {
 pub(super) struct FrameEstimate {
     /// Expected centre of pressure [m].
     pub(super) center: Vec3,
-    /// In the order of [`super::expected::Component::ALL`].
+    /// Estimates in the order of [`super::expected::Component::ALL`].
     parts: [Estimate; 6],
 }
 
@@ -131,8 +131,8 @@ pub(super) fn loads(
 }
 
 impl EstimateInputs<'_> {
-    /// Adds the mean errors of walking, and those of the person, to an estimate; returns that of the centre of pressure
-    /// [m].
+    /// Adds the mean errors of walking and of the person to the force estimates; returns the mean error of the centre
+    /// of pressure [m].
     fn take_errors_off(&self, stance: &Stance, phase: f64, estimates: &mut [Estimate; 6]) -> Vec3 {
         if !repeats(stance) {
             return Vec3::zeros();

@@ -3,14 +3,15 @@
 //!
 //!   w   = G ∗ (H ∗) Σ_feet (F_i, r_i × F_i + T_i) - G ∗ (F_total, M_total), moments about the mass centre
 //!   m_F = rms of the force of w along an axis over a stance
-//!   m_P = rms of (M_w - r × F_w) / weight over a stance: about the axis to the right along the foot, about forward across it
+//!   m_P = rms of (M_w - r × F_w) / weight over a stance: about the axis to the right along the foot,
+//!         about forward across it
 //!
 //! | code      | symbol   | unit | meaning                                                 |
 //! | `filters` | G, H     |      | filters of the evidence ([`super::evidence_filter`])    |
 //! | `arm`     | r        | m    | from the mass centre to the expected centre of pressure |
 //!
-//! Noise that the estimate could explain is gone from it; what remains is motion that contradicts the shapes of forces
-//! of walking: for want of markers (on the trunk, say), or because the body moves fast.
+//! Noise that the estimate can explain is not in w. The rest is motion that contradicts the shapes of forces
+//! of walking: because markers are missing (on the trunk, for example), or because the body moves fast.
 
 use super::deviation_calibration::Misfit;
 use super::evidence_filter::{EvidenceFilter, EvidenceFilters};

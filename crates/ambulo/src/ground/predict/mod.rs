@@ -58,7 +58,7 @@ use unilateral::enforce_unilateral_contact;
 const LEAST_GRAVITY: f64 = 0.1;
 /// How forces are divided between the feet in double support.
 const RULE: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness)";
-/// The same with the calibration of a person.
+/// Name of the rule with the calibration of a person.
 const RULE_OF_PERSON: &str = "maximum a posteriori estimate (lever rule, normative curves by speed, smoothness), \
     calibrated for the person on force plates";
 
@@ -81,13 +81,13 @@ pub struct Prediction {
 /// Standard deviations of the prediction for one foot, one entry per frame; zero in swing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootDeviation {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
-    /// Of the force [N].
+    /// Standard deviation of the force [N].
     pub force: Vec<Vec3>,
-    /// Of the centre of pressure [m].
+    /// Standard deviation of the centre of pressure [m].
     pub center: Vec<Vec3>,
-    /// Of the free moment [N.m].
+    /// Standard deviation of the free moment [N.m].
     pub free_moment: Vec<f64>,
 }
 
@@ -149,15 +149,15 @@ pub enum PredictError {
     /// A model without feet.
     #[error("the model `{model}` has no two legs with hip, knee, ankle and foot; expected both legs")]
     NoFeet {
-        /// Its name.
+        /// Name of the model.
         model: String,
     },
     /// A foot without a sole.
     #[error("the {side} sole of the model `{model}` is not known; expected the soles of both feet")]
     NoSole {
-        /// Its name.
+        /// Name of the model.
         model: String,
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
     },
     /// A model without mass.
@@ -166,17 +166,17 @@ pub enum PredictError {
          scales with the mass"
     )]
     NoMass {
-        /// Its name.
+        /// Name of the model.
         model: String,
-        /// Its mass [kg].
+        /// Mass of the model [kg].
         mass: f64,
     },
     /// A model without gravity.
     #[error("the model `{model}` has a gravity of {gravity} m/s²; expected at least 0.1")]
     NoGravity {
-        /// Its name.
+        /// Name of the model.
         model: String,
-        /// Its gravity [m/s²].
+        /// Gravity of the model [m/s²].
         gravity: f64,
     },
     /// A calibration of another person.
@@ -216,9 +216,9 @@ pub enum PredictError {
          expected stances in order of time"
     )]
     Footfalls {
-        /// Which foot.
+        /// Side of the foot.
         side: Side,
-        /// Its foot strike or foot off [s].
+        /// Foot strike or foot off of the stance [s].
         time_s: f64,
     },
     /// Equations without a solution.
@@ -229,7 +229,7 @@ pub enum PredictError {
     Shape {
         /// The series.
         what: &'static str,
-        /// Its number of frames.
+        /// Number of frames found.
         found: usize,
         /// Number of frames of the motion.
         expected: usize,
@@ -310,7 +310,7 @@ pub(super) struct KnownMotion {
 }
 
 /// As [`predict`], but only in the `wanted` frames; the forces and deviations of the others are zero. Where these are
-/// not all frames, only the part of the motion that decides about them is evaluated ([`estimate`]).
+/// not all frames, only the part of the motion on which they depend is evaluated ([`estimate`]).
 pub(super) fn predict_frames(
     model: &Model,
     soles: &BySide<Sole>,

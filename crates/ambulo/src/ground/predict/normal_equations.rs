@@ -72,7 +72,7 @@ pub(super) struct NormalEquations<'a> {
 #[derive(Debug, Default)]
 struct Rows {
     rest: [f64; 6],
-    /// Of each unknown in the six equations.
+    /// Coefficients of each unknown in the six equations.
     coefficients: Vec<[f64; 6]>,
 }
 

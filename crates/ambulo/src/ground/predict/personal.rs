@@ -1,7 +1,7 @@
 //! Calibration of the estimate for one person by trials on force plates, for the person's other trials.
 //!
 //! Errors of the estimate are personal and repeat: segments with other masses than in the table, an own way to strike.
-//! The mean error of a few stances on plates, weighted by what they can be trusted ([`super::stance_errors`]), is taken
+//! The mean error of a few stances on plates, weighted by their reliability ([`super::stance_errors`]), is taken
 //! off the estimate of the same foot; with stances of one foot only, the other foot gets its mirror image. The standard
 //! deviations shrink to what remains.
 
@@ -35,11 +35,11 @@ pub struct PersonalErrors {
     /// Checksum of the name of the person in the files of the trials, if they have one: [`checksum`](super::checksum).
     pub subject: Option<u64>,
     /// The largest mean error of a force, as a multiple of its standard deviation; both root mean squares over a
-    /// stance. Mean errors of people are within about three.
+    /// stance. For recorded subjects it is within about three.
     pub excess: f64,
 }
 
-/// Mean errors beyond so many standard deviations of the estimate are those of one person in 300, or of plates,
+/// Mean errors beyond this number of standard deviations of the estimate come from one person in 300, or from plates,
 /// markers or a mass that do not belong together.
 const USUAL_EXCESS: f64 = 3.0;
 
@@ -54,9 +54,9 @@ pub struct OtherPerson {
     pub what: &'static str,
     /// Its unit.
     pub unit: &'static str,
-    /// Of the person in the motion.
+    /// Value of the person in the motion.
     pub found: f64,
-    /// Of the calibrated person.
+    /// Value of the calibrated person.
     pub expected: f64,
 }
 
@@ -81,7 +81,7 @@ impl PersonalErrors {
         Ok(())
     }
 
-    /// Whether the mean errors are larger than those of nearly all people.
+    /// Whether the mean errors are larger than for nearly all persons.
     #[must_use]
     pub fn is_unusual(&self) -> bool {
         self.excess > USUAL_EXCESS
@@ -93,7 +93,7 @@ impl PersonalErrors {
         self.subject.zip(subject).is_some_and(|(calibrated, found)| calibrated != found)
     }
 
-    /// The errors of a foot, and how far they are trusted.
+    /// The errors of a foot, and their weight (0 to 1).
     fn of(&self, side: Side) -> (&StanceErrors, f64) {
         let other = if side == Side::Right { Side::Left } else { Side::Right };
         let from = if self.stances[side] > 0 { side } else { other };

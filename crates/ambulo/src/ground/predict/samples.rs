@@ -22,7 +22,7 @@ pub(super) struct EstimateInputs<'a> {
     /// Half the width of the right and the left sole [m].
     pub(super) half_widths: BySide<f64>,
     pub(super) stances: &'a [Stance],
-    /// About the world's origin.
+    /// Total wrench about the world's origin.
     pub(super) total: &'a [Wrench],
     pub(super) body_scale: &'a BodyScale,
     pub(super) parameters: &'a FittedParameters,

@@ -1,14 +1,14 @@
-//! Repeatable errors of the estimate over a stance, learned from force plates and taken off.
+//! Repeatable errors of the estimate over a stance, learned from force plates and subtracted.
 //!
 //! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance:
-//! the prior has the strike of other people, the body's segments are not exactly those of the person. What repeats is a
+//! the prior has the strike of other subjects, the body's segments differ slightly from the person's. What repeats is a
 //! curve over the stance for each component, with a cubic without slope at its ends between [`KNOTS`], so that forces
 //! have no kinks, by least squares:
 //!
 //!   e(u) = Σ_k B_k(u) c_k      (Σ_s w_s Σ_i B B' + λ 1) c = Σ_s w_s Σ_i B (measured - estimated)
 //!
 //! with u the elapsed share of the stance as detected from the motion, w_s equal for stances (of a person) and the
-//! diagonal λ a share of the mean of that of the left side. [`StanceErrors::default`] has no error at all.
+//! diagonal λ a share of the mean diagonal of the left side. [`StanceErrors::default`] has no error at all.
 //!
 //! Of an error with standard deviation σ between stances of a person, a share ρ of the variance repeats in the next
 //! trial of the person ([`REPEATS`]). Then the best linear estimate of the repeatable part after n trials is the mean
@@ -23,12 +23,12 @@ pub const KNOTS: [f64; 15] = [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.
 const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
-/// The same for the curve of a usual strike and for its change with the descent. The curve itself hardly carries over
-/// to other laboratories and is held down; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
+/// As above, for the curve of a usual strike and for its change with the descent. The curve itself is of little use in
+/// other laboratories and has a large ridge; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
 /// errors of subjects and laboratories left out.
 const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
 /// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the
-/// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two people with five
+/// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two subjects with five
 /// trials or stances of a foot.
 pub const REPEATS: f64 = 0.67;
 
@@ -59,7 +59,7 @@ pub struct ErrorSample {
     pub phase: f64,
     /// Measured minus estimated value.
     pub error: f64,
-    /// Its weight.
+    /// Weight of the sample.
     pub weight: f64,
     /// Descent of the mass centre at the strike of its stance (`strike_descents`).
     pub descent: f64,
@@ -173,7 +173,7 @@ impl StanceErrors {
 /// Mean errors of the estimate in walking, which depend on the descent of the mass centre at the strike.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorsByDescent {
-    /// In a usual strike.
+    /// Mean errors in a usual strike.
     pub usual: StanceErrors,
     /// Change of the force forward and up for each unit of the descent (`strike_descents`) [body weights].
     pub by_descent: [StanceCurve; 2],

@@ -17,7 +17,7 @@ const USUAL_STANCE: f64 = 2.1;
 const LONGEST_STEP: f64 = 6.0;
 /// Steps of stairs differ by more than this [m]: half the rise of a usual step, as in docs/JUDGEMENT.md.
 const LEAST_RISE_M: f64 = 0.08;
-/// Below this share of √(g L) the body stands still.
+/// Speed below which the body stands still, as a share of √(g L).
 const UNDER_WAY: f64 = 0.08;
 
 /// Type of gait of a stance.
@@ -34,7 +34,7 @@ pub enum GaitType {
 /// One stance with its axes, speed and phase.
 #[derive(Debug, Clone)]
 pub struct Stance {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Strike [s]; estimated where the recording cuts the stance.
     pub start_s: f64,
@@ -48,14 +48,14 @@ pub struct Stance {
     pub right: Vec3,
     /// Dimensionless speed V / √(g L).
     pub speed: f64,
-    /// Of what the stance is a part.
+    /// Gait of which the stance is a part.
     pub gait: GaitType,
-    /// Until when the foot stands on its forefoot alone after a strike with the forefoot; `None` after a strike with
+    /// Time until which only the forefoot is on the ground after a forefoot strike; `None` after a strike with
     /// the heel [s].
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
     pub on_stairs: bool,
-    /// How much more than usual the mass centre descends at the strike (`strike_descent`).
+    /// Descent of the mass centre at the strike, relative to a usual strike (`strike_descent`).
     pub descent: f64,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     pub knots: Vec<[f64; 2]>,
@@ -193,7 +193,7 @@ fn stance(
     let heading = if pace > UNDER_WAY { level(drift) } else { level(foot[2] - foot[0]) };
     let forward = heading.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| any_level(body_scale.up));
     let near = 0.02 * body_scale.leg_time_s;
-    // The other foot's off ends a stance that began before this one; its strike begins one that ends after this one.
+    // The other foot's off ends a stance that began before this one; its strike begins a stance that ends later.
     let before = others.iter().filter(|o| o[0] <= start_s).map(|o| o[1]);
     let other_off = before.into_iter().find(|off| *off > start_s + near && *off < end_s - near);
     let other_strike = others

@@ -15,7 +15,7 @@ use super::geometry::FootPlace;
 use crate::model::BySide;
 use crate::spatial::{Vec3, Wrench};
 
-/// Below this share of the body weight the feet carry too little for their moment to show where [body weights].
+/// Load below which the moment of the feet does not show the place of the load [body weights].
 const LEAST_LOAD: f64 = 0.2;
 /// The two equations are solved in turn; each turn at least halves the error where the feet point in similar
 /// directions.
@@ -29,7 +29,7 @@ pub fn zero_moment_point(total: &Wrench, height_m: f64, up: Vec3, weight_n: f64)
     (vertical > LEAST_LOAD * weight_n).then(|| up * height_m + up.cross(&moment) / vertical)
 }
 
-/// How far along both soles the centres of pressure lie, from rear (0) to tip (1), so that together they give the
+/// Place of the centres of pressure along both soles, from rear (0) to tip (1), with which together they give the
 /// zero-moment point.
 pub fn share_along_soles(feet: BySide<&FootPlace>, point: Vec3, up: Vec3) -> f64 {
     let level = |v: Vec3| v - up * v.dot(&up);

@@ -47,7 +47,7 @@ pub enum StreamError {
     Length {
         /// Number of the frame, from 0.
         frame: usize,
-        /// Its number of coordinates.
+        /// Number of coordinates found.
         found: usize,
         /// Number of coordinates of the model.
         expected: usize,
@@ -64,7 +64,7 @@ pub enum StreamError {
         coordinate: String,
         /// Number of the frame, from 0.
         frame: usize,
-        /// Its value.
+        /// Value found.
         found: f64,
     },
     /// Smoothing failed.

@@ -23,7 +23,7 @@ pub struct StreamFrame {
 /// Ground reaction force on one foot, with standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FootLoad {
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
     /// Force [N]; zero in swing.
     pub force: Vec3,
@@ -40,11 +40,11 @@ pub struct FootLoad {
 /// Standard deviations of a foot's load; zero in swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadDeviation {
-    /// Of the force [N].
+    /// Standard deviation of the force [N].
     pub force: Vec3,
-    /// Of the centre of pressure [m].
+    /// Standard deviation of the centre of pressure [m].
     pub center: Vec3,
-    /// Of the free moment [N.m].
+    /// Standard deviation of the free moment [N.m].
     pub free_moment: f64,
 }
 
@@ -56,8 +56,7 @@ impl FootLoad {
     }
 }
 
-/// The forces in one frame of a window, in which `row` is that of the prediction; `number` and `time_s` are those of
-/// the stream.
+/// The forces in one frame of a window. `row` is its row in the prediction; `number` and `time_s` count in the stream.
 pub(super) fn read(
     model: &Model,
     workspace: &mut Workspace,

@@ -16,7 +16,7 @@ pub struct FrameBuffer {
 }
 
 impl FrameBuffer {
-    /// Empty, for so many frames.
+    /// An empty buffer for this number of frames.
     pub fn new(model: &Model, rate_hz: f64, capacity: usize) -> FrameBuffer {
         let is_free = |drive: &Drive| matches!(drive, Drive::Free);
         let column = |drive: &Drive| is_free(drive).then(|| Vec::with_capacity(capacity));

@@ -4,8 +4,8 @@
 //! motion of feet and mass centre is kept for the frames before it. At every frame the newest part is smoothed, stances
 //! are detected in the window, and the forces are predicted in the frame at the delay by the code for whole recordings,
 //! from the steps around it. Only the frames of the delay follow it: the smoothing ends there, and the duration of a
-//! stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with those of a
-//! whole recording.
+//! stance that has not ended is estimated from earlier stances. docs/STREAMING.md compares the errors with the errors
+//! for a whole recording.
 //!
 //! A missing coordinate is passed as not-a-number. While the newest frame has one, no forces are returned, and those
 //! frames are never returned later. A gap of at most 0.2 s is interpolated as in a recording; after a longer one the
@@ -50,7 +50,7 @@ const WINDOWS_S: [f64; 2] = [1.0, 60.0];
 /// A delay is rounded down to whole frames, unless it is this close to the next one [frames].
 const NEAR_A_FRAME: f64 = 1e-6;
 /// The prediction uses every n-th frame where that leaves at least this rate [Hz]: of a motion filtered at 6 Hz more
-/// frames say no more.
+/// frames contain no more information.
 const WORKING_RATE_HZ: f64 = 100.0;
 /// Number of frames that a quintic spline needs.
 const FEWEST_FRAMES: usize = 6;

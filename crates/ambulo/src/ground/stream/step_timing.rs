@@ -1,6 +1,6 @@
 //! Predicts the foot offs and foot strikes after the newest frame.
 //!
-//! People step regularly: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to
+//! Steps are regular: from stride to stride the times of stance, stride and double support vary by 1 to 4 %, 10 to
 //! 30 ms (Owings, Grabiner 2004, unverified). Foot off is therefore expected at the usual time after the other foot's
 //! strike, or, before that strike, after a usual stance; foot strike is expected one stride after the previous one. An
 //! event that is overdue by a time x is expected after another x: for a person who stops walking, continued stance is
@@ -18,7 +18,7 @@ use crate::model::Side;
 use crate::motion::TimeGrid;
 use crate::numerics::median;
 
-/// In walking the other foot's strike is later than this share of a stance.
+/// Earliest strike of the other foot in walking, as a share of a stance.
 const TAKES_OVER_AFTER: f64 = 0.5;
 
 /// Usual times of a person's steps [s]; `None` until they were observed.

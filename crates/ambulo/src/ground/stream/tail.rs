@@ -6,7 +6,7 @@
 //!   T = ln(1 / ε) / (2π f_c sin(π / (2 n)))
 //!
 //! a frame is settled: 0.49 s at 6 Hz and order 3. Only the frames after it are filtered again, from 2 T before the
-//! newest frame on; derivatives are those of a quintic spline through the filtered frames, as in
+//! newest frame on; derivatives belong to a quintic spline through the filtered frames, as in
 //! [`crate::motion::smooth`], by the weights of its neighbours, which decay by 0.43 a frame.
 //!
 //! | code      | symbol | meaning                                     |
@@ -30,7 +30,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Share of a change in later frames that remains in a settled frame.
 const SETTLED: f64 = 1e-4;
-/// Neighbours on each side that decide about the derivatives of a spline; the next one has 2e-8 of the weight of the
+/// Neighbours on each side on which the derivatives of a spline depend; the next one has 2e-8 of the weight of the
 /// first.
 pub const NEIGHBOURS: usize = 20;
 
@@ -51,7 +51,7 @@ pub enum Tail {
     Filtered {
         /// Number of the first frame.
         first: isize,
-        /// One per coordinate.
+        /// Columns, one per coordinate.
         columns: Vec<Option<Vec<f64>>>,
     },
     /// All frames of the window, with the number of the first one.
@@ -68,9 +68,9 @@ pub enum Tail {
 pub struct FrameRange {
     /// Number of the first one.
     pub first: usize,
-    /// From one to the next, in frames of the stream.
+    /// Step from one frame to the next, in frames of the stream.
     pub stride: usize,
-    /// How many there are.
+    /// Number of frames.
     pub count: usize,
 }
 

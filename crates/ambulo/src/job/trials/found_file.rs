@@ -15,7 +15,7 @@ const NOT_BIDS_RECORDINGS: [&str; 4] = ["sourcedata/", "derivatives/", "code/", 
 /// The recordings that are trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
-    /// Those with measured ground forces.
+    /// Recordings with measured ground forces.
     MeasuredForces,
     /// All recordings of motion.
     Motion,
@@ -42,7 +42,7 @@ impl FoundFile {
         FoundFile { path: path.to_owned(), name: last(path), folder: String::new() }
     }
 
-    /// The folder that it lies in, in the same form.
+    /// The folder of the file, in the same form.
     pub(super) fn own_folder(&self) -> &str {
         self.name.rsplit_once('/').map_or("", |(folder, _)| folder)
     }
@@ -51,8 +51,8 @@ impl FoundFile {
         ending(&self.path)
     }
 
-    /// Whether the name is that of a file of a trial. Of a BIDS data set, folders without recordings of their own are
-    /// left out.
+    /// Whether the name can belong to a file of a trial. In a BIDS data set, folders without recordings of their own
+    /// are left out.
     #[must_use]
     pub fn may_be_part(&self, wanted: Wanted, of_bids: bool) -> bool {
         let is_left_out = of_bids && NOT_BIDS_RECORDINGS.iter().any(|folder| self.name.starts_with(folder));

@@ -53,7 +53,7 @@ impl Participants {
     }
 }
 
-/// The sizes of people by their names, from the bytes of both files.
+/// The sizes of participants by name, from the bytes of both files.
 pub fn sizes(
     table: &[u8],
     description: &[u8],

@@ -32,18 +32,21 @@ use std::path::{Path, PathBuf};
 pub const LIST: &str = "trials.toml";
 /// Words in the names of tables of ground forces.
 const FORCES: [&str; 4] = ["grf", "force", "forces", "plates"];
-/// Words in the names of recordings that say only what kind of recording it is.
+/// Words in names of recordings that state only the kind of recording.
 const RECORDINGS: [&str; 10] =
     ["ground", "reaction", "marker", "markers", "motion", "capture", "mocap", "ik", "kinematics", "coordinates"];
 /// Words in the names of standing trials, of which the first one with such a name is preferred.
 const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
+/// Parts of the names of movements that show the joints of a person, without separators.
+const FUNCTIONAL: [&str; 7] =
+    ["functionalcal", "functionalhip", "functionalknee", "functionaljoint", "stararc", "hipcal", "kneecal"];
 
 /// A trial with the files that belong to it.
 #[derive(Debug, Clone)]
 pub struct PlannedTrial {
     /// Path of the recording from the folder of all trials.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The kind that the laboratory states.
     pub kind: Option<String>,
@@ -68,7 +71,7 @@ pub struct Plan {
     pub standing: Vec<String>,
 }
 
-/// What a recording is, and whose.
+/// Kind and person of a recording.
 #[derive(Debug, Clone)]
 pub struct Content {
     kind: Kind,
@@ -84,7 +87,7 @@ enum Kind {
     Still,
     /// Without forces.
     Motion,
-    /// It cannot be read, for this reason.
+    /// The recording cannot be read, for this reason.
     Broken(String),
 }
 
@@ -122,7 +125,7 @@ pub struct Listing<'a> {
 pub struct TrialFolder<'a> {
     /// Its path.
     pub path: &'a Path,
-    /// Its name, which is that of a person whose recordings lie in it.
+    /// Its name: the name of the person whose recordings lie in it.
     pub name: &'a str,
     /// Which recordings are trials.
     pub wanted: Wanted,
@@ -176,7 +179,7 @@ impl<'a> Listing<'a> {
         self.recordings.len()
     }
 
-    /// What a recording is, by its number.
+    /// The content of a recording, by its number.
     pub fn content(&self, number: usize, files: &mut dyn Files) -> Content {
         let (file, stated) = &self.recordings[number];
         if stated.excluded.is_some() || !is_of_markers(file) {
@@ -197,7 +200,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The trials. `contents` says what each recording is.
+    /// The trials. `contents` has the kind and the person of each recording.
     #[must_use]
     pub fn plan(self, contents: &[Content], files: &mut dyn Files) -> Plan {
         let mut plan = Plan { read: self.read.clone(), ..Plan::default() };
@@ -229,7 +232,7 @@ impl<'a> Listing<'a> {
 }
 
 impl Plan {
-    /// Takes a size that is stated for all trials, for those of which nothing else is stated; it is that of one person.
+    /// Uses a size stated for all trials in the trials that state none themselves; it is the size of one person.
     ///
     /// # Errors
     /// A size, and the trials of several persons.
@@ -372,7 +375,13 @@ fn words(file: &FoundFile) -> impl Iterator<Item = String> {
     words.into_iter()
 }
 
-/// The words that say which trial it is.
+/// Whether a recording is a movement that shows the joints, and no trial: its name says so.
+fn shows_joints(file: &FoundFile, content: &Content) -> bool {
+    let stem = file.stem().replace(['-', '_', ' '], "");
+    matches!(content.kind, Kind::Motion | Kind::Plates) && FUNCTIONAL.iter().any(|part| stem.contains(part))
+}
+
+/// The words that identify the trial.
 fn own_words(file: &FoundFile) -> BTreeSet<String> {
     words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
 }
@@ -387,6 +396,8 @@ struct Folders<'a> {
     models: BTreeMap<&'a str, Vec<&'a FoundFile>>,
     /// The standing trials of each folder, those with a usual name first.
     standing: BTreeMap<&'a str, Vec<(&'a FoundFile, &'a RecordedPerson)>>,
+    /// The first movement of each folder that shows the joints.
+    functional: BTreeMap<&'a str, &'a FoundFile>,
 }
 
 impl<'a> Folders<'a> {
@@ -398,6 +409,7 @@ impl<'a> Folders<'a> {
             forces: BTreeMap::new(),
             models: BTreeMap::new(),
             standing: BTreeMap::new(),
+            functional: BTreeMap::new(),
         };
         for file in listing.found {
             if is_force_table(file) {
@@ -412,11 +424,16 @@ impl<'a> Folders<'a> {
         {
             folders.standing.entry(&file.folder).or_default().push((file, &content.person));
         }
+        for ((file, _), _) in
+            listing.recordings.iter().zip(contents).filter(|(read, content)| shows_joints(read.0, content))
+        {
+            folders.functional.entry(&file.folder).or_insert(file);
+        }
         folders.standing.values_mut().for_each(|still| still.sort_by_key(|(file, _)| !is_named(file)));
         folders
     }
 
-    /// The trial of a recording, or why it is none.
+    /// The trial of a recording, or the reason why it is no trial.
     fn trial(
         &self,
         file: &FoundFile,
@@ -426,6 +443,9 @@ impl<'a> Folders<'a> {
     ) -> Result<PlannedTrial, String> {
         if let Some(reason) = &stated.excluded {
             return Err(excluded(reason));
+        }
+        if shows_joints(file, content) {
+            return Err("the person moves hips and knees: the movement that shows the joints of this folder".to_owned());
         }
         let path = |named: &String| self.root_path.join(named);
         let Content { kind, person } = content;
@@ -445,7 +465,9 @@ impl<'a> Folders<'a> {
             return Err("the same trial as another recording with this name".to_owned());
         }
         let model = stated.model.as_ref().map(path).or_else(|| self.model_of(file));
-        let standing = self.standing_of(file, person).filter(|_| model.is_none() && is_of_markers(file));
+        let is_built_in = model.is_none() && is_of_markers(file);
+        let standing = self.standing_of(file, person).filter(|_| is_built_in);
+        let functional = self.functional.get(file.folder.as_str()).filter(|_| is_built_in);
         Ok(PlannedTrial {
             name: file.name.clone(),
             person: stated.person.clone().unwrap_or_else(|| self.person(file)),
@@ -456,6 +478,7 @@ impl<'a> Folders<'a> {
                 recording: file.path.clone(),
                 trial: None,
                 standing: stated.standing.as_ref().map(path).or_else(|| standing.map(|standing| standing.path.clone())),
+                functional: functional.map(|movement| movement.path.clone()),
                 model,
                 grf: stated.forces.as_ref().map(path).or(grf),
                 loads: stated.loads.as_ref().map(path),

@@ -1,4 +1,4 @@
-//! Whose recording a file is, by what it says and shows: for the standing trials of a folder with several people.
+//! The person of a recording, by its names and its content: for the standing trials of a folder with several persons.
 
 use crate::analysis::identity::{OTHER_LIMBS, limb_difference, limb_lengths};
 use crate::study::LaboratoryFile;

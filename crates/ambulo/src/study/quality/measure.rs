@@ -21,14 +21,18 @@ pub enum Measure {
     MeasuredForces,
     /// Whether there is no time in which the measured forces can be compared with the motion.
     UncheckedForces,
+    /// Whether none of the stances of a leg that stood on plates was measured, while those of the other leg were.
+    UnmeasuredLeg,
     /// Share of the measured load that lies under no foot.
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
     /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
     ForceDirections,
-    /// Distance of markers or joints from the fitted body.
+    /// Distance of the markers or joints of pelvis and legs from the fitted body.
     MarkerFit,
+    /// Distance of the markers or joints of trunk and head from the fitted body.
+    TrunkFit,
     /// Distance of standing markers from the scaled model.
     Scaling,
     /// Ratio of scale factors.
@@ -78,16 +82,18 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 27] = [
+    pub const ALL: [Measure; 29] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
         Measure::MeasuredForces,
         Measure::UncheckedForces,
+        Measure::UnmeasuredLeg,
         Measure::UnassignedForces,
         Measure::SilentPlates,
         Measure::ForceDirections,
         Measure::MarkerFit,
+        Measure::TrunkFit,
         Measure::Scaling,
         Measure::ScaleFactors,
         Measure::WhoseMarkers,
@@ -117,11 +123,12 @@ impl Measure {
             Measure::ResidualMoment => AtMost(0.6, 1.2),
             Measure::GroundForces => AtLeast(0.9, 0.5),
             Measure::MeasuredForces => AtLeast(0.1, 0.02),
-            Measure::UncheckedForces => AtMost(0.0, 1.0),
+            Measure::UncheckedForces | Measure::UnmeasuredLeg => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
             Measure::ForceDirections => AtLeast(0.6, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
+            Measure::TrunkFit => AtMost(0.04, 1.0),
             Measure::Scaling => AtMost(0.035, 0.06),
             Measure::ScaleFactors => AtMost(1.35, 1.7),
             Measure::WhoseMarkers => AtMost(0.0, 3.0),
@@ -160,14 +167,14 @@ impl Measure {
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
+            Measure::UnmeasuredLeg => "1 if plates under a leg measured none of its stances, and some of the other leg",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
-            Measure::MarkerFit => {
-                "distance of markers or joints from the fitted body, rms; of legs and pelvis, or trunk, if it is worse"
-            }
+            Measure::MarkerFit => "distance of the markers or joints of pelvis and legs from the fitted body, rms",
+            Measure::TrunkFit => "distance of the markers or joints of trunk and head from the fitted body, rms",
             Measure::Scaling => "distance of the markers of the standing trial from the scaled model, rms",
             Measure::ScaleFactors => "largest over smallest scale factor of the bodies of a scaled model",
             Measure::WhoseMarkers => {
@@ -193,8 +200,7 @@ impl Measure {
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::FrozenPoints => {
-                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
-                 piece"
+                "share of the time in which keypoints of a moving leg keep their distances like those of a rigid body"
             }
             Measure::AxialRotation => "standard deviation of axial rotation of the thighs, from errors of keypoints",
             Measure::DerivedPlace => {
@@ -218,7 +224,11 @@ impl Measure {
         match self {
             Measure::ResidualForce => "BW",
             Measure::ResidualMoment => "N.m/kg",
-            Measure::MarkerFit | Measure::Scaling | Measure::CenterOfPressure | Measure::StanceHeight => "m",
+            Measure::MarkerFit
+            | Measure::TrunkFit
+            | Measure::Scaling
+            | Measure::CenterOfPressure
+            | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",
             Measure::ForceDelay => "s",
@@ -226,6 +236,7 @@ impl Measure {
             Measure::GroundForces
             | Measure::MeasuredForces
             | Measure::UncheckedForces
+            | Measure::UnmeasuredLeg
             | Measure::UnassignedForces
             | Measure::SilentPlates
             | Measure::ForceDirections

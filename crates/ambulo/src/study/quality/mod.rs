@@ -15,13 +15,14 @@ pub(crate) mod stance_heights;
 use super::force_directions::{ForceDirections, is_used};
 use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
-use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
+use super::origin::{ForceOrigin, Tracking};
+use super::region_fit::RegionFit;
 use super::timing::{ForceDelay, Tempo};
+use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
-use crate::kinematics::marker_fit::MarkerFit;
-use crate::model::{BodyId, CoordinateId, Model};
+use crate::model::{CoordinateId, Model, Region};
 use crate::motion::{Jumps, Motion, Smoother, jumps};
 use crate::spatial::Vec3;
 #[doc(hidden)]
@@ -145,6 +146,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
+    /// A leg that stood on plates, but none of whose stances was measured.
+    pub(super) unmeasured_leg: Option<&'a UnmeasuredLeg>,
     pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
     /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
@@ -157,11 +160,12 @@ pub(super) struct QualityEvidence<'a> {
 impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
-        let of_body = [self.marker_fit(), self.scaling(), self.scale_factors(), self.mass()];
+        let of_body = [self.marker_fit(), self.trunk_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
-        let of_plates = [self.unchecked_forces(), self.unassigned_forces(), self.silent_plates()];
+        let of_plates =
+            [self.unchecked_forces(), self.unmeasured_leg(), self.unassigned_forces(), self.silent_plates()];
         let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
         let of_keypoints = [self.frozen_points(), self.axial_rotation(), self.derived_place()];
         Quality::of(
@@ -240,6 +244,12 @@ impl QualityEvidence<'_> {
         })
     }
 
+    /// The residual is checked in the stances of the other leg only.
+    fn unmeasured_leg(&self) -> Option<QualityReason> {
+        let leg = self.unmeasured_leg?;
+        Measure::UnmeasuredLeg.reason(1.0, |_| leg.message())
+    }
+
     fn unassigned_forces(&self) -> Option<QualityReason> {
         let (share, [from, to]) = self.idle.unassigned()?;
         Measure::UnassignedForces.reason(share, |limit| {
@@ -266,31 +276,27 @@ impl QualityEvidence<'_> {
         reason.filter(|_| is_used(&self.force_origin))
     }
 
-    fn fit(&self) -> Option<&MarkerFit> {
-        self.tracking.map(fit_of)
-    }
-
     fn marker_fit(&self) -> Option<QualityReason> {
-        let fit = self.fit()?;
-        let rms_m = marker_fit_rms_m(self.tracking?);
-        Measure::MarkerFit.reason(rms_m, |limit| {
-            let known = fit.errors.iter().filter(|error| error.rms_m.is_finite() && !self.is_on_arm(&error.name));
-            let farthest = known.max_by(|a, b| a.rms_m.total_cmp(&b.rms_m));
-            let farthest = farthest.map_or(String::new(), |error| {
-                format!(", farthest `{}` with {}", error.name, millimetres(error.rms_m))
-            });
+        let judged = decisive(self.tracking?.regions())?;
+        Measure::MarkerFit.reason(judged.rms_m, |limit| {
             format!(
-                "the recorded points are {} from the body (rms{farthest}; at most {}): the body is not this person's, \
-                 or points are misplaced",
-                millimetres(rms_m),
+                "{}, at most {}: the body is not this person's, or points are misplaced",
+                judged.words(),
                 millimetres(limit)
             )
         })
     }
 
-    fn is_on_arm(&self, marker: &str) -> bool {
-        let marker = self.model.markers().iter().find(|known| known.name == marker);
-        marker.and_then(|marker| marker.body).is_some_and(|body| part_of(self.model, body) == 2)
+    /// Moments of the legs do not follow from the trunk, but residuals and predicted forces do.
+    fn trunk_fit(&self) -> Option<QualityReason> {
+        let trunk = above_the_legs(self.tracking?.regions()).find(|fit| fit.region == Region::Trunk)?;
+        Measure::TrunkFit.reason(trunk.rms_m, |limit| {
+            format!(
+                "{}, at most {}: residuals and predicted forces, which need the motion of the trunk, are uncertain",
+                trunk.words(),
+                millimetres(limit)
+            )
+        })
     }
 
     fn whose_markers(&self) -> Option<QualityReason> {
@@ -355,7 +361,7 @@ impl QualityEvidence<'_> {
     }
 
     fn gaps(&self) -> Option<QualityReason> {
-        self.fit()?;
+        self.tracking?;
         let RecordedFaults { unknown_share: share, first_unknown_s, .. } = *self.recorded?;
         Measure::Gaps.reason(share, |limit| {
             format!(
@@ -511,64 +517,14 @@ impl QualityEvidence<'_> {
     }
 }
 
-fn fit_of(tracking: &Tracking) -> &MarkerFit {
-    match tracking {
-        Tracking::Markers(tracked) => &tracked.body.fit,
-        Tracking::Skeleton { fit, .. } => fit,
-    }
+/// The region whose fit decides whether the motion is known: pelvis and legs, or the first region of a model without.
+pub(super) fn decisive(regions: &[RegionFit]) -> Option<&RegionFit> {
+    regions.first()
 }
 
-/// Distance of markers or joints from the fitted body, rms over frames [m]. Where all together are too far, legs with
-/// the pelvis and the trunk are judged apart, and the arms not at all: gait does not need them, and they carry a weight
-/// of a fiftieth in the fit, so that they are far off without harm where the upper body has few markers.
-pub(super) fn marker_fit_rms_m(tracking: &Tracking) -> f64 {
-    let all = root_mean_square(fit_of(tracking).rms_m.iter().copied());
-    match tracking {
-        Tracking::Markers(tracked) if Measure::MarkerFit.reason(all, |_| String::new()).is_some() => {
-            let [of_legs, of_trunk, _] = rms_of_parts_m(tracked);
-            let parts = [of_legs, of_trunk].into_iter().filter(|rms| rms.is_finite());
-            parts.reduce(f64::max).map_or(all, |worst| worst.min(all))
-        }
-        _ => all,
-    }
-}
-
-/// Distances of the markers of pelvis and legs, of the trunk and of the arms, rms [m]; NaN for a part without markers.
-pub(super) fn rms_of_parts_m(tracked: &TrackedMarkers) -> [f64; 3] {
-    let model = &tracked.body.subject.model;
-    let part = |name: &str| {
-        let marker = model.markers().iter().find(|marker| marker.name == name)?;
-        Some(part_of(model, marker.body?))
-    };
-    let errors = &tracked.body.fit.errors;
-    [0, 1, 2].map(|wanted| {
-        let own = errors.iter().filter(|error| part(&error.name) == Some(wanted));
-        root_mean_square(own.map(|error| error.rms_m))
-    })
-}
-
-/// 0 for pelvis and legs, 1 for the trunk, 2 for the arms.
-fn part_of(model: &Model, body: BodyId) -> usize {
-    let anatomy = model.anatomy();
-    let hips: Vec<BodyId> = anatomy.legs().values().flatten().map(|leg| leg.hip).collect();
-    let mut above = Some(body);
-    while let Some(own) = above {
-        if hips.contains(&own) {
-            return 0;
-        }
-        above = model.bodies()[own.index()].joint.parent;
-    }
-    match anatomy.body_side(body) {
-        _ if anatomy.pelvis() == Some(body) => 0,
-        None => 1,
-        Some(_) => 2,
-    }
-}
-
-/// Of the numbers that are finite; NaN without any.
-fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
-    let squares: Vec<f64> = values.filter(|value| value.is_finite()).map(|value| value * value).collect();
-    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+/// The fits of trunk and arms, if another region is decisive.
+pub(super) fn above_the_legs(regions: &[RegionFit]) -> impl Iterator<Item = &RegionFit> {
+    regions.iter().skip(1)
 }
 
 fn percent(share: f64) -> String {

@@ -1,4 +1,4 @@
-//! Which cycles belong to no mean, and why.
+//! Excludes cycles from the means, with the reason.
 //!
 //! | reason | rule |
 //! |---|---|
@@ -30,7 +30,7 @@ pub struct TrialFacts {
     pub bad_data: Option<String>,
     /// Activity of the person.
     pub activity: ActivityKind,
-    /// How far its path turns [rad], if known.
+    /// Turn of the path [rad], if known.
     pub turn: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ pub struct CycleFacts {
 }
 
 impl CycleFacts {
-    /// Of a cycle of a session.
+    /// Facts of a cycle of a session.
     #[must_use]
     pub fn of(cycle: &SessionCycle) -> CycleFacts {
         CycleFacts {
@@ -64,19 +64,19 @@ pub enum Exclusion {
     BadData(String),
     /// The trial shows another activity than most.
     Activity {
-        /// Of the trial.
+        /// Activity of the trial.
         found: ActivityKind,
-        /// Of most trials.
+        /// Activity of most trials.
         usual: ActivityKind,
     },
     /// The path turns.
     Turn {
-        /// By how much [rad].
+        /// Turn of the path [rad].
         angle: f64,
     },
     /// The cycle is far longer or shorter than usual.
     Duration {
-        /// Its duration [s].
+        /// Duration found [s].
         found_s: f64,
         /// The median of the session [s].
         usual_s: f64,

@@ -1,11 +1,11 @@
-//! A session: the gait cycles of several trials of one person, pooled and compared with healthy people.
+//! A session: the gait cycles of several trials of one person, pooled and compared with healthy subjects.
 //!
 //! ```text
 //! SessionCycle     curves of one cycle in clinical signs, with the source of its forces, excluded or not
 //!    |
 //! PooledCurve      mean and standard deviation over the cycles of a side
 //! representative   the cycle nearest to the median of all
-//! GaitProfile      distances from the mean of healthy people: gait variable scores, gait profile score
+//! GaitProfile      distances from the mean of healthy subjects: gait variable scores, gait profile score
 //! Deviation        where over the cycle a mean curve leaves the normative band
 //! ```
 //!

@@ -20,7 +20,7 @@ pub struct CurveStatistics {
 }
 
 impl CurveStatistics {
-    /// Of at least one curve; `None` without any, or of curves of different lengths.
+    /// Statistics of at least one curve; `None` without any, or of curves of different lengths.
     #[must_use]
     pub fn of(curves: &[&[f64]]) -> Option<CurveStatistics> {
         let length = curves.first()?.len();
@@ -38,7 +38,7 @@ impl CurveStatistics {
         Some(CurveStatistics { mean, sd, count })
     }
 
-    /// Standard deviation over the whole cycle: the root mean square of that of the samples.
+    /// Standard deviation over the whole cycle: the root mean square over the standard deviations of the samples.
     #[must_use]
     pub fn spread(&self) -> Option<f64> {
         self.sd.as_deref().map(rms)
@@ -54,8 +54,9 @@ pub struct PooledCurve {
     pub forces: Option<CycleForces>,
 }
 
-/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. If it depends on forces,
-/// over those with measured forces, or, where there is none, over those with predicted ones. `None` without cycles.
+/// Mean and standard deviation of a quantity over the cycles of a side that are not excluded. A quantity that depends
+/// on forces uses cycles with measured forces, or, without such cycles, cycles with predicted forces. `None` without
+/// cycles.
 #[must_use]
 pub fn pooled(cycles: &[SessionCycle], quantity: &str, side: Side) -> Option<PooledCurve> {
     let of_side = || {

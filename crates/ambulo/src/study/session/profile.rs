@@ -1,4 +1,4 @@
-//! Movement analysis profile, gait profile score, and deviations from the mean of healthy people.
+//! Movement analysis profile, gait profile score, and deviations from the mean of healthy subjects.
 //!
 //!   GVS_q  = √( mean over t of (x_q(t) - n_q(t))² )
 //!   GPS    = √( mean over q of GVS_q² )          over the nine angles of a side
@@ -24,7 +24,7 @@ use crate::model::{BySide, Side};
 use crate::motion::interpolate;
 use crate::numerics::rms;
 
-/// The angles of the profile, those of the pelvis first.
+/// The angles of the profile, pelvis angles first.
 pub const PROFILE: [&str; 9] = [
     "pelvis_tilt_angle",
     "pelvis_obliquity_angle",
@@ -36,7 +36,7 @@ pub const PROFILE: [&str; 9] = [
     "ankle_dorsiflexion_angle",
     "foot_progression_angle",
 ];
-/// Those of the pelvis.
+/// Number of pelvis angles, which come first.
 const OF_PELVIS: usize = 3;
 /// More standard deviations from the mean are outside the normal range: 95 % of a normal distribution are inside.
 const RANGE_SD: f64 = 2.0;
@@ -143,20 +143,20 @@ pub fn profile(cycles: &[SessionCycle], norm: impl Fn(&str) -> Option<NormalCurv
 pub struct Deviation {
     /// Root mean square difference from the mean of the group, in the unit of the quantity.
     pub rms: f64,
-    /// The same to expect of a person of the group.
+    /// Root mean square to expect of a person of the group.
     pub expected_rms: f64,
     /// The largest difference in standard deviations of the group: in the unit of the quantity, positive above the
     /// mean.
     pub largest: f64,
-    /// The same in standard deviations.
+    /// Largest deviation in standard deviations.
     pub largest_sd: f64,
-    /// Where that is [% of the cycle].
+    /// Place of the largest difference [% of the cycle].
     pub at_percent: f64,
     /// Share of the cycle more than two standard deviations away, from 0 to 1.
     pub outside: f64,
 }
 
-/// Deviation of a mean curve from a reference group. Where the group hardly varies, in less than 5 % of its largest
+/// Deviation of a mean curve from a reference group. Where the group varies little, in less than 5 % of its largest
 /// standard deviation, that share is used. `None` for a group without variation.
 #[must_use]
 pub fn deviation(mean: &[f64], norm: &NormalCurve) -> Option<Deviation> {

@@ -23,7 +23,7 @@ use crate::model::{BySide, Side};
 use crate::numerics::median;
 use std::collections::BTreeSet;
 
-/// A cycle that is so many times as far from the median as usual is far from the others.
+/// A cycle is an outlier if its distance from the median is more than this many times the usual distance.
 const FAR: f64 = 2.0;
 /// With fewer cycles a median gives no information about the others.
 const FEWEST: usize = 3;

@@ -1,8 +1,8 @@
 //! The delay between force plates and motion.
 //!
-//! Forces that are shifted by s are compared with what the motion needs, over the frames in which every loaded foot is
-//! measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where both belong
-//! together:
+//! The measured forces are shifted by s and compared with the forces that the motion requires, over the frames in which
+//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where forces and motion
+//! are synchronous:
 //!
 //!   r = argmin F²(s)/F²(0) + M²(s)/M²(0),   |s| ≤ 0.15 s
 //!
@@ -11,7 +11,7 @@
 //!
 //!   d = ((r - r₀) + e) / 2
 //!
-//! Both scatter: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
+//! Both vary: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
 //! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the
 //! bones late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and
 //! one frame and the residuals fall by a tenth at their minimum, neither of them rising. Noise, a wrong body and
@@ -30,12 +30,13 @@ use super::{NeededFrame, NeededWrenches, Tempo, difference};
 use crate::analysis::{Analysis, AnalysisSettings};
 use crate::dynamics::{JointReaction, Roots};
 use crate::findings::{Code, Findings};
-use crate::ground::footfalls::footfalls;
+use crate::ground::footfalls::{Footfalls, footfalls};
 use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, TotalLoad};
 use crate::model::Side;
-use crate::motion::EventKind;
+use crate::motion::{EventKind, TimeGrid};
 use crate::numerics::median;
 use crate::spatial::Wrench;
+use std::borrow::Cow;
 
 /// Shifts are tried up to this [s]; delays of up to 0.1 s are then inside the range.
 const FARTHEST_S: f64 = 0.15;
@@ -79,22 +80,27 @@ pub(in crate::study) struct PlateTiming {
 }
 
 impl PlateTiming {
-    /// Of measured forces; `None` where they cannot be compared with the motion.
+    /// Of measured forces, with the stances of the motion if they are known; `None` where forces and motion cannot be
+    /// compared.
     pub(in crate::study) fn of(
         observation: &Observation,
         analysis: &Analysis,
+        stances: Option<&Footfalls>,
         settings: &AnalysisSettings,
     ) -> Option<PlateTiming> {
-        let Observation { model, forces, .. } = observation;
+        let Observation { model, forces, person, .. } = observation;
         let needed = NeededWrenches::of(model, analysis)?;
         let filter = settings.smoother.low_pass().or(settings.force_filter);
         let load = TotalLoad::new(model, &analysis.trajectory, forces, filter)?;
         let step_s = analysis.trajectory.grid().step_s;
+        let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
+        let stances = stances.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed);
         let within = |spans: Vec<[f64; 2]>| compared(&needed, &spans, &load, step_s);
-        let frames = within(instrumented(observation)).or_else(|| within(loaded_spans(observation, analysis)))?;
+        let frames = within(instrumented(observation))
+            .or_else(|| within(loaded_spans(observation, analysis.trajectory.grid(), &stances)))?;
         let misfit = Misfit { roots: Roots::of(model), needed: &needed, frames, load };
         let found = misfit.least()?;
-        let events_s = event_delay(observation, analysis);
+        let events_s = event_delay(observation, analysis, &stances);
         let tempo = Tempo::of_plates(model, analysis, &misfit.frames, |t| misfit.load.at(t + found.delay_s));
         Some(PlateTiming { delay: found.agreed(events_s, LEAST_S.max(step_s)), tempo })
     }
@@ -105,6 +111,10 @@ impl ForceDelay {
     fn agreed(self, events_s: Option<f64>, least_s: f64) -> Option<ForceDelay> {
         let by_residual_s = self.delay_s - SOFT_PARTS_S;
         let [force, moment] = [0, 1].map(|k| self.shifted[k] / self.recorded[k]);
+        eprintln!(
+            "DBG delay residual {:.4} events {events_s:?} force {force:.3} moment {moment:.3} least {least_s}",
+            by_residual_s
+        );
         let falls = force * moment <= FALLS_TO * FALLS_TO && force.max(moment) <= 1.0;
         let (delay_s, least_s) = match events_s {
             Some(events_s) if (events_s - by_residual_s).abs() > AGREE_S => return None,
@@ -206,10 +216,7 @@ fn instrumented(observation: &Observation) -> Vec<[f64; 2]> {
 
 /// All of the motion without the stances during most of which no load was recorded [s]: for tables of forces, and for
 /// plates that are so late that no foot seems to be measured completely.
-fn loaded_spans(observation: &Observation, analysis: &Analysis) -> Vec<[f64; 2]> {
-    let Observation { model, person, .. } = observation;
-    let grid = analysis.trajectory.grid();
-    let stances = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
+fn loaded_spans(observation: &Observation, grid: TimeGrid, stances: &Footfalls) -> Vec<[f64; 2]> {
     let loaded = |side: Side, [from, to]: [f64; 2]| {
         let inside: Vec<f64> = grid.times().into_iter().filter(|time| (from..=to).contains(time)).collect();
         let carries = |time: &&f64| vertical_n(observation, side, **time) > CENTER_OF_PRESSURE_LOAD_N;
@@ -238,9 +245,9 @@ fn vertical_n(Observation { model, forces, .. }: &Observation, side: Side, time_
 
 /// Time from foot strikes and foot offs by the motion to those by the plates [s]: mean of the medians of both, whose
 /// errors have opposite signs (docs/LABORATORY.md). `None` without pairs of both kinds.
-fn event_delay(Observation { model, person, origin, .. }: &Observation, analysis: &Analysis) -> Option<f64> {
-    let by_motion = footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default()).events();
-    let measured = match origin.followed() {
+fn event_delay(observation: &Observation, analysis: &Analysis, stances: &Footfalls) -> Option<f64> {
+    let by_motion = stances.events();
+    let measured = match observation.origin.followed() {
         Some(followed) if !followed.body.on_plates.contacts.is_empty() => followed.body.measured_events(),
         _ => analysis.events.clone(),
     };

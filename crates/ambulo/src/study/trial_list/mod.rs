@@ -29,7 +29,7 @@ struct Entry {
 /// Statements of the list about a file. The rest is found by the rules of docs/VALIDATE.md.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StatedTrial {
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: Option<String>,
     /// The kind of trial in tables, in place of the recognised one.
     pub kind: Option<String>,

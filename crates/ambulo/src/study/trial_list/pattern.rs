@@ -40,7 +40,7 @@ impl Pattern {
     }
 
     /// Whether a whole path fits. All places of the pattern that the letters so far can have reached are followed
-    /// together, so that no pattern takes longer than its length times that of the path.
+    /// together, so that the cost is at most the length of the pattern times the length of the path.
     pub fn matches(&self, path: &str) -> bool {
         let mut reached = vec![false; self.parts.len() + 1];
         self.reach(&mut reached, 0);

@@ -41,7 +41,7 @@ pub enum Figure {
     CenterAcross,
     /// RMSE of a sagittal moment [N.m/kg].
     Moment(LegJoint),
-    /// Its correlation.
+    /// Correlation of a sagittal moment [1].
     MomentCorrelation(LegJoint),
     /// Foot strikes and foot offs [ms].
     Events,
@@ -65,7 +65,7 @@ impl Component {
         }
     }
 
-    /// Its place in the forces of a [`ComparedSample`](crate::analysis::ComparedSample).
+    /// Index of the component in the forces of a [`ComparedSample`](crate::analysis::ComparedSample).
     pub(super) fn axis(self) -> usize {
         match self {
             Component::Vertical => 0,
@@ -74,7 +74,7 @@ impl Component {
         }
     }
 
-    /// Its agreement, from the agreement of a foot.
+    /// Agreement of the component, from the agreement of a foot.
     #[must_use]
     pub fn of(self, foot: &FootAgreement) -> ForceAgreement {
         match self {

@@ -10,15 +10,15 @@ use crate::model::Side;
 pub struct StanceRow<'a> {
     /// The trial.
     pub trial: &'a JudgedTrial,
-    /// Which foot.
+    /// Side of the foot.
     pub side: Side,
-    /// From foot strike to foot off by the plate [s].
+    /// Foot strike and foot off by the plate [s].
     pub span_s: [f64; 2],
-    /// Which component.
+    /// Component of the force.
     pub component: Component,
     /// Over the whole stance.
     pub whole: ForceAgreement,
-    /// In each fifth of its time; `None` without a loaded frame.
+    /// Agreement in each fifth of the stance; `None` without a loaded frame.
     pub fifths: [Option<ForceAgreement>; 5],
 }
 

@@ -15,7 +15,7 @@ pub struct Section {
     pub title: &'static str,
     /// The table.
     pub table: TextTable,
-    /// How to read it.
+    /// Explanation for readers.
     pub note: String,
 }
 

@@ -26,9 +26,9 @@ pub struct TrialKind {
 /// A trial whose prediction was compared with force plates.
 #[derive(Debug, Clone)]
 pub struct JudgedTrial {
-    /// Its name in tables.
+    /// Name of the trial in tables.
     pub name: String,
-    /// Whose trial it is.
+    /// Person of the trial.
     pub person: String,
     /// The words of its [`TrialKind`], or of the caller's own kinds.
     pub kind: String,
@@ -36,7 +36,7 @@ pub struct JudgedTrial {
     pub speed_m_s: Option<f64>,
     /// The body mass of the comparison.
     pub mass: Mass,
-    /// Its weight [N].
+    /// Weight of the person [N].
     pub weight_n: f64,
     /// Whether recording, body and forces fit together.
     pub quality: QualityState,
@@ -46,7 +46,7 @@ pub struct JudgedTrial {
     pub agreement: GroundAgreement,
     /// The whole stances on plates, predicted and measured.
     pub stances: Vec<ComparedStance>,
-    /// Agreement of other methods: the simple rules, and tracking if it was asked for and found a motion.
+    /// Agreement of other methods: the simple rules, and tracking if it was requested and found a motion.
     pub others: Vec<(Method, GroundAgreement)>,
 }
 
@@ -54,7 +54,7 @@ pub struct JudgedTrial {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotJudged {
-    /// Nothing was predicted.
+    /// No forces were predicted.
     #[error("no ground forces were predicted; expected a body with two feet on the ground")]
     NoPrediction,
     /// No measured forces.
@@ -66,7 +66,7 @@ pub enum NotJudged {
 }
 
 impl TrialKind {
-    /// The kind of a trial; `findings` are those of its computation.
+    /// The kind of a trial; `findings` come from its computation.
     #[must_use]
     pub fn of(outcome: &Outcome, findings: &Findings) -> TrialKind {
         let (activity, model) = (outcome.activity.kind, &outcome.body);
@@ -89,7 +89,7 @@ impl TrialKind {
 }
 
 impl JudgedTrial {
-    /// A trial that was computed with predicted forces and has measured ones; `findings` are those of its computation.
+    /// A trial that was computed with predicted forces and has measured ones; `findings` come from its computation.
     ///
     /// # Errors
     /// A trial without prediction, plates or a whole stance.
@@ -115,7 +115,7 @@ impl JudgedTrial {
         })
     }
 
-    /// Judges tracking as well, which takes about a second per trial; `outcome` is that of the trial.
+    /// Judges tracking as well, which takes about a second per trial; `outcome` belongs to the trial.
     pub fn judge_tracking(&mut self, outcome: &Outcome) {
         self.others.extend(methods::tracking(outcome));
     }

@@ -31,8 +31,7 @@ impl Basis {
             unmeasured: share(|verdict| verdict.frames_unmeasured.saturating_sub(verdict.frames_predicted)),
             predicted: share(|verdict| verdict.frames_predicted),
             // The residual of measured forces does not apply to predicted forces.
-            residual_bw: residual_bw
-                .filter(|share| results.source == PageSource::Measured && *share > LARGE_RESIDUAL_BW),
+            residual_bw: residual_bw.filter(|share| results.is_measured() && *share > LARGE_RESIDUAL_BW),
         }
     }
 

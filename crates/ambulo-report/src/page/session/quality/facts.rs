@@ -3,14 +3,18 @@
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::results::Results;
 use ambulo::analysis::PredictionCheck;
+use ambulo::model::Region;
 use ambulo::simulation::consistent_walk::Magnitude;
-use ambulo_results::{ConsistencySummary, MarkersSummary, ResidualSummary, Summary, WalkSummary};
+use ambulo_results::{ConsistencySummary, MarkersSummary, RegionSummary, ResidualSummary, Summary, WalkSummary};
 
 /// Residual force, root mean square [body weights]: walking data with every foot on a plate stay below it (finding
 /// `residual.large`).
 const RESIDUAL_BW: f64 = 0.1;
 /// Root mean square of the marker distances [mm]: OpenSim recommends 20 (its guide to good practice, unverified).
 const MARKERS_MM: f64 = 20.0;
+/// The same of trunk and arms, which do not change the moments of the legs [mm]: beyond it their motion is not known
+/// (findings `markers.trunk` and `markers.arms`).
+const UPPER_BODY_MM: f64 = 40.0;
 
 /// Checks of a prediction: name in the file, label, factor and unit as shown, digits.
 const CHECKS: [(&str, &str, f64, &str, usize); 10] = [
@@ -69,11 +73,22 @@ fn changed(consistency: &ConsistencySummary) -> Judged {
 }
 
 fn markers(markers: &MarkersSummary) -> Vec<Judged> {
-    let rms = markers.rms_mm.map(|rms| Judged {
-        allowed: Some(format!("below {MARKERS_MM:.0} mm")),
-        good: Some(rms < MARKERS_MM),
-        ..plain("Distance of markers from the body, RMS", format!("{rms:.1} mm"))
+    let shown = |rms: f64| plain("Distance of markers from the body, RMS", format!("{rms:.1} mm"));
+    let judged = |rms: f64, limit_mm: f64, fact: Judged| Judged {
+        allowed: Some(format!("below {limit_mm:.0} mm")),
+        good: Some(rms < limit_mm),
+        ..fact
+    };
+    // Folders of earlier versions have no regions.
+    let all = markers.rms_mm.map(|rms| match markers.regions.is_empty() {
+        true => judged(rms, MARKERS_MM, shown(rms)),
+        false => shown(rms),
     });
+    let of_region = |(region, fit): (&Region, &RegionSummary)| {
+        let limit_mm = if *region == Region::Legs { MARKERS_MM } else { UPPER_BODY_MM };
+        let label = format!("Distance of markers from the body: {}", region.words());
+        judged(fit.rms_mm, limit_mm, plain(&label, markers.region_words(fit)))
+    };
     let unsettled = none_allowed("Frames in which the marker fit did not converge", markers.frames_not_converged);
     // Folders of earlier versions do not know how many were recorded.
     let used = (markers.recorded > 0).then(|| Judged {
@@ -81,7 +96,7 @@ fn markers(markers: &MarkersSummary) -> Vec<Judged> {
         good: Some(markers.used as f64 >= 0.6 * markers.recorded as f64),
         ..plain("Markers that the body follows", format!("{} of {}", markers.used, markers.recorded))
     });
-    rms.into_iter().chain(used).chain([unsettled]).collect()
+    all.into_iter().chain(markers.regions.iter().map(of_region)).chain(used).chain([unsettled]).collect()
 }
 
 /// A count that must be zero.

@@ -23,8 +23,15 @@ pub(super) fn friction(results: &Results, block: &mut Block) -> Option<Group> {
     if used.is_empty() {
         return None;
     }
-    let trace =
-        |name: &str, side, role, values| Trace { name: name.to_owned(), side, role, values, sd: None, origin: None };
+    let trace = |name: &str, side, role, values| Trace {
+        name: name.to_owned(),
+        side,
+        role,
+        values,
+        sd: None,
+        predicted: Vec::new(),
+        origin: None,
+    };
     let mut traces: Vec<Trace> = used
         .iter()
         .map(|(side, values)| trace(&side.to_string(), Some(sides::page(*side)), Role::Main, block.add(values)))

@@ -129,6 +129,7 @@ fn trace(
         role,
         values: block.add(&values),
         sd: sd.map(|sd| block.add(&sd)),
+        predicted: if role == Role::Main { results.predicted_times(side) } else { Vec::new() },
         origin: Some(Origin { file: file.to_owned(), column, factor }),
     })
 }

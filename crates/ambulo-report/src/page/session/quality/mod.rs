@@ -1,4 +1,4 @@
-//! Quality of the results: how far the numbers can be trusted.
+//! Quality of the results: how reliable the numbers are.
 
 mod facts;
 mod friction;

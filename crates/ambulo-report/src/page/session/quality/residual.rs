@@ -41,7 +41,15 @@ pub(super) fn residual(results: &Results, block: &mut Block) -> Option<Group> {
 }
 
 fn trace(name: &str, role: Role, values: &[f64], origin: Option<Origin>, block: &mut Block) -> Trace {
-    Trace { name: name.to_owned(), side: None, role, values: block.add(values), sd: None, origin }
+    Trace {
+        name: name.to_owned(),
+        side: None,
+        role,
+        values: block.add(values),
+        sd: None,
+        predicted: Vec::new(),
+        origin,
+    }
 }
 
 fn panel(results: &Results, (movement, head, directions): &Component, block: &mut Block) -> Option<Panel> {
@@ -86,7 +94,7 @@ fn note(results: &Results) -> String {
 fn windows(results: &Results) -> String {
     let windows = results.summary.subject.iter().flat_map(|subject| &subject.instrumented_windows_s);
     let spans: Vec<String> = windows.map(|[from, to]| format!("{from:.2} to {to:.2} s")).collect();
-    match spans.is_empty() || results.source != PageSource::Measured {
+    match spans.is_empty() || !results.is_measured() {
         true => String::new(),
         false => {
             format!(" It is meaningful only while every loaded foot is wholly on a force plate: {}.", spans.join(", "))

@@ -13,8 +13,8 @@ use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary
 /// A marker error above this is marked [mm]: such a marker has little weight in the fit (docs/MARKERS.md).
 const FAR_MM: f64 = 40.0;
 
-/// A marker and the frames in which it is missing.
-type MarkerRow = (MarkerErrorSummary, usize);
+/// A marker, the frames in which it is missing, and its region of the body.
+type MarkerRow = (MarkerErrorSummary, usize, &'static str);
 /// The compared source, the reference, and their agreement.
 type EventRow = (&'static str, &'static str, EventAgreement);
 /// A foot, a component of its force, and the agreement of prediction and plates.
@@ -22,13 +22,14 @@ type ForceRow = (Side, &'static str, ForceAgreement);
 /// A changed quantity, the size of the change (root mean square and maximum), and the unit.
 type ChangeRow = (String, [f64; 2], &'static str);
 
-const MARKERS: [Column<MarkerRow>; 6] = [
-    ("Marker", |(marker, _)| text(&marker.name)),
-    ("RMS [mm]", |(marker, _)| number(marker.rms_mm, 1, Some([f64::NEG_INFINITY, FAR_MM]))),
-    ("Largest [mm]", |(marker, _)| number(marker.max_mm, 1, None)),
-    ("Frames visible", |(marker, _)| count(marker.frames_seen)),
-    ("Frames missing", |(_, missing)| at_most_none(*missing)),
-    ("Frames rejected", |(marker, _)| at_most_none(marker.frames_refused)),
+const MARKERS: [Column<MarkerRow>; 7] = [
+    ("Marker", |(marker, ..)| text(&marker.name)),
+    ("Region", |(.., region)| text(region)),
+    ("RMS [mm]", |(marker, ..)| number(marker.rms_mm, 1, Some([f64::NEG_INFINITY, FAR_MM]))),
+    ("Largest [mm]", |(marker, ..)| number(marker.max_mm, 1, None)),
+    ("Frames visible", |(marker, ..)| count(marker.frames_seen)),
+    ("Frames missing", |(_, missing, _)| at_most_none(*missing)),
+    ("Frames rejected", |(marker, ..)| at_most_none(marker.frames_refused)),
 ];
 const PLATES: [Column<PlateContactSummary>; 7] = [
     ("Plate", |contact| text(&contact.plate)),
@@ -140,9 +141,14 @@ const MARKER_NOTE: &str =
 
 /// Largest error first, with the number of frames in which the marker is missing.
 fn markers(results: &Results) -> Vec<MarkerRow> {
-    let errors = results.summary.subject.iter().flat_map(|subject| &subject.markers.errors);
-    let mut rows: Vec<MarkerRow> =
-        errors.map(|error| (error.clone(), results.grid.frames.saturating_sub(error.frames_seen))).collect();
+    let markers = || results.summary.subject.iter().map(|subject| &subject.markers);
+    let region = |name: &String| {
+        let own = markers().flat_map(|markers| &markers.regions).find(|(_, fit)| fit.markers.contains(name));
+        own.map_or("-", |(region, _)| region.words())
+    };
+    let missing = |error: &MarkerErrorSummary| results.grid.frames.saturating_sub(error.frames_seen);
+    let errors = markers().flat_map(|markers| &markers.errors);
+    let mut rows: Vec<MarkerRow> = errors.map(|error| (error.clone(), missing(error), region(&error.name))).collect();
     let size = |row: &MarkerRow| row.0.rms_mm.unwrap_or(f64::INFINITY);
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     rows

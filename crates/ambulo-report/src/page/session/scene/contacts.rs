@@ -95,6 +95,7 @@ impl Sums {
                     role: Role::Main,
                     values: block.add(&sums[which]),
                     sd: None,
+                    predicted: Vec::new(),
                     origin: None,
                 })
             });

@@ -41,6 +41,7 @@ pub(super) fn groups(
             role: Role::Main,
             values: block.add(&instants.nearest(&columns[column])),
             sd: None,
+            predicted: Vec::new(),
             origin: Some(Origin { file: ENERGY.to_owned(), column: name.to_owned(), factor: 1.0 }),
         };
         over_time([&format!("energy_{name}"), title, unit], ["", ""], vec![trace])

@@ -134,6 +134,7 @@ fn trace(name: &str, coordinate: &Coordinate, what: What, instants: &Instants, b
         role: Role::Main,
         values: block.add(&shown),
         sd: None,
+        predicted: Vec::new(),
         origin: Some(Origin { file: JOINTS.to_owned(), column: format!("{column} of {name}"), factor }),
     }
 }

@@ -84,6 +84,7 @@ impl Figure {
             role: Role::Main,
             values: block.add(&instants.nearest(&rows)),
             sd: None,
+            predicted: Vec::new(),
             origin: Some(Origin { file: MOMENTS.to_owned(), column, factor }),
         })
     }

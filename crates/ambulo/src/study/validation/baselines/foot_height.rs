@@ -2,11 +2,11 @@
 //!
 //!   F_i = m g w_i / Σ w      w_i = exp(-(h_i - h₀) / λ)
 //!
-//! | code           | symbol | unit | meaning                                                                            |
-//! |----------------|--------|------|------------------------------------------------------------------------------------|
-//! | `heights`      | h_i    | m    | mean height of heel, toe and ankle                                                 |
+//! | code           | symbol | unit | meaning |
+//! |----------------|--------|------|---|
+//! | `heights`      | h_i    | m    | mean height of heel, toe and ankle |
 //! | `floor`        | h₀     | m    | 5th percentile of the heights of both feet over the recording; lower feet have w 1 |
-//! | [`HEIGHT_M`]   | λ      | m    | 0.08                                                                               |
+//! | [`HEIGHT_M`]   | λ      | m    | 0.08 |
 //!
 //! There is no fore-aft and no lateral force, no flight and no acceleration. The force acts in the middle of heel, toe
 //! and ankle. Source: monomech 0.15.24 (PyPI, MIT licence), `external.py`, `estimate_grf`.

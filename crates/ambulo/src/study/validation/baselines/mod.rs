@@ -60,7 +60,7 @@ impl Baseline {
     /// All rules, in the order of tables.
     pub const ALL: [Baseline; 2] = [Baseline::FootHeight, Baseline::SmoothTransition];
 
-    /// The analysis of the same motion with the ground forces of this rule in place of those of `prediction`, which
+    /// The analysis of the same motion with the ground forces of this rule in place of `prediction`, which
     /// gives the stances and the total force. `None` without the soles of both feet.
     #[must_use]
     pub fn analysis(

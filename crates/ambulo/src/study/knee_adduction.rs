@@ -1,0 +1,81 @@
+//! The external knee adduction moment over the whole stances of an outcome.
+//!
+//! It is the internal abduction moment of the knee's reaction per body mass. If a stance of a leg was measured, only
+//! measured stances of this leg count, otherwise those with predicted or simulated forces. A stance at the edge of the
+//! motion is not whole, nor is one in which a plate felt the foot for a part of the time.
+//!
+//! Pinned by: tests/joint_moments.rs
+
+use super::outcome::Outcome;
+use crate::analysis::{Analysis, Cycle, Event, EventKind, over_cycle_of, stance_load};
+use crate::ground::stances::{Stance, StanceSource};
+use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N};
+use crate::model::anatomy::Movement;
+use crate::model::{BySide, Model, Side};
+use crate::motion::TimeGrid;
+use crate::spatial::Vec3;
+
+/// Share of a stance at either end in which a foot may still be unloaded.
+const ENDS: f64 = 0.1;
+
+impl Outcome {
+    /// First peak [N.m/kg], second peak [N.m/kg] and impulse [N.m.s/kg] of the external knee adduction moment, for each
+    /// whole stance of each leg ([`stance_load`]). Empty where the moment is not known: legs that move in the sagittal
+    /// plane only, and joints down to the knee that are not measured.
+    #[must_use]
+    pub fn knee_adduction(&self) -> BySide<Vec<[f64; 3]>> {
+        let (analysis, model) = (self.complete(), &self.body);
+        let moments = analysis.joint_moments(model);
+        let movement = Movement::KneeAdduction;
+        BySide::from_fn(|side| {
+            if model.anatomy().is_any_above(&self.not_measured, movement, side) {
+                return Vec::new();
+            }
+            let of_stance = |[start_s, end_s]: [f64; 2]| {
+                let stance = Cycle { side, number: 1, start_s, end_s, foot_off_s: None };
+                let adducting = |frame| moments.at(movement, side, frame).map_or(f64::NAN, |m| -m / analysis.mass.kg);
+                stance_load(&over_cycle_of(analysis.trajectory.grid(), adducting, &stance), end_s - start_s)
+            };
+            self.whole_stances(analysis, side).into_iter().filter_map(of_stance).collect()
+        })
+    }
+
+    /// Foot strike and foot off of the stances of a leg that count [s].
+    fn whole_stances(&self, analysis: &Analysis, side: Side) -> Vec<[f64; 2]> {
+        let is_whole = |span: &[f64; 2]| {
+            is_inside(*span, analysis.trajectory.grid()) && is_loaded(&self.body, analysis, side, *span)
+        };
+        if self.stances.is_empty() {
+            return contacts(analysis, side).into_iter().filter(is_whole).collect();
+        }
+        let of_source = |is_meant: fn(&StanceSource) -> bool| -> Vec<[f64; 2]> {
+            let own = self.stances.iter().filter(|stance| stance.side == side && is_meant(&stance.source));
+            own.map(|Stance { start_s, end_s, .. }| [*start_s, *end_s]).filter(is_whole).collect()
+        };
+        let measured = of_source(StanceSource::is_measured);
+        if measured.is_empty() { of_source(|source| *source == StanceSource::Predicted) } else { measured }
+    }
+}
+
+/// From each foot strike of a foot to the next foot off [s].
+fn contacts(analysis: &Analysis, side: Side) -> Vec<[f64; 2]> {
+    let own: Vec<_> = analysis.events.iter().filter(|event| event.side == side).collect();
+    let is_contact = |pair: &&[&Event]| pair[0].kind == EventKind::Strike && pair[1].kind == EventKind::Off;
+    own.windows(2).filter(is_contact).map(|pair| [pair[0].time_s, pair[1].time_s]).collect()
+}
+
+/// Whether a stance begins and ends inside the motion, not at its edge.
+fn is_inside([start_s, end_s]: [f64; 2], grid: TimeGrid) -> bool {
+    start_s > grid.start_s + 0.5 * grid.step_s && end_s < grid.end_s() - 0.5 * grid.step_s
+}
+
+/// Whether the foot carries a load in every frame of a stance but at its ends.
+fn is_loaded(model: &Model, analysis: &Analysis, side: Side, [start_s, end_s]: [f64; 2]) -> bool {
+    let (grid, up, ends_s) = (analysis.trajectory.grid(), model.up(), ENDS * (end_s - start_s));
+    let is_own = |part: &&BodyForces| model.anatomy().body_side(part.body) == Some(side);
+    let parts: Vec<&BodyForces> = analysis.ground.bodies.iter().filter(is_own).collect();
+    let carries =
+        |frame: usize| parts.iter().map(|part| part.force[frame]).sum::<Vec3>().dot(&up) > CENTER_OF_PRESSURE_LOAD_N;
+    let middle = start_s + ends_s..=end_s - ends_s;
+    (0..grid.frames).filter(|frame| middle.contains(&grid.time(*frame))).all(carries)
+}

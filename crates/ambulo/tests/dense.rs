@@ -1,0 +1,6 @@
+//! Tests whose own arithmetic takes most of their time, in a program that is optimised like the library.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+
+mod common;
+
+mod elimination;
