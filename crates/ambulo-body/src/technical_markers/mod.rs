@@ -259,7 +259,7 @@ fn trunk_markers(body: MarkedBody<'_>) -> usize {
 
 /// Head and hands, if the body has joints for them: their markers are as loose as those of a forearm.
 fn moving_parts(model: &Model) -> impl Iterator<Item = (BodyId, Segment)> {
-    ["head", "hand_r", "hand_l"].into_iter().filter_map(|name| Some((model.body(name)?, Segment::Forearm)))
+    ["head", "hand_r", "hand_l"].into_iter().filter_map(move |name| Some((model.body(name)?, Segment::Forearm)))
 }
 
 /// Whether a marker is on the head, as far as the head is a part of the trunk.
