@@ -43,6 +43,8 @@ export interface Job {
   trial?: number | string | null;
   /** The same person standing still. */
   standing?: string | null;
+  /** The same person in a movement of hips and knees, which shows the joint centres and axes of the built-in body. */
+  functional?: string | null;
   /** The person in recordings of several people: the prefix of the names of the markers. By default such recordings are refused. */
   subject?: string | null;
   /** The body. Coordinates need a model; by default a `.b3d` has its own, and everything else the built-in body. */
@@ -131,6 +133,10 @@ export interface Processing {
   fit?: MarkerFitting | null;
   /** Longest marker gap that is interpolated [s]. */
   longest_gap_s?: number;
+  /** How the built-in body finds the centres of the hips. */
+  hip?: HipRegression;
+  /** How the built-in body finds the axes of the knees. */
+  knee_axis?: KneeAxis;
 }
 
 /** How the ground forces are found. */
@@ -152,6 +158,12 @@ export type Adjustable = "motion" | "body";
 
 /** How coordinates are fitted to markers. */
 export type MarkerFitting = "frames" | "trajectory";
+
+/** How the centres of the hips follow from the markers of the pelvis. */
+export type HipRegression = "harrington" | "hara" | "bell" | "plug-in-gait";
+
+/** Where the axes of the knees of the built-in body come from. */
+export type KneeAxis = "markers" | "least-cross-talk";
 
 /** A convention for the angles of pelvis and hips. */
 export type Convention = "clinical" | "opensim";

@@ -54,6 +54,7 @@ usage: cargo xtask <command>
                     [--hours H: and the memory over so many hours of motion, as fast as they are taken]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
+                    [--recordings [NAME]: instead fit the clean recordings frame by frame and all frames together]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
@@ -88,7 +89,7 @@ environment:
 
 /// Commands of this crate; the documents are compared with this list.
 #[cfg(test)]
-const OWN: [&str; 13] = [
+const OWN: [&str; 14] = [
     "check",
     "house",
     "build-time",

@@ -11,6 +11,7 @@
 //! | [`motion`] | recordings of markers, coordinates, skeletons, force plates and sensors |
 //! | [`kinematics`] | from markers to coordinates, and from coordinates to the motion of all bodies |
 //! | [`technical_markers`] | markers without a known name, by the segment with which they move |
+//! | [`functional`] | centres of hips and axes of knees from a movement |
 //! | [`contact`] | contact points, friction, rigid and compliant laws |
 //! | [`dynamics`] | inverse dynamics, and bodies under constraints |
 
@@ -27,6 +28,8 @@ pub mod motion;
 
 pub mod kinematics;
 pub mod technical_markers;
+
+pub mod functional;
 
 pub mod contact;
 

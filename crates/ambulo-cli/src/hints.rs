@@ -8,7 +8,7 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
-use ambulo::kinematics::calibration::CalibrationError;
+use ambulo::kinematics::calibration::CalibrationError as BodyError;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
@@ -114,6 +114,8 @@ fn option(field: Field) -> Option<&'static str> {
         Field::ForceDelay => "`--force-delay S`",
         Field::Fit => "`--fit frames|trajectory`",
         Field::Hip => "`--hip harrington|hara|bell|plug-in-gait`",
+        Field::KneeAxis => "`--knee-axis markers|least-cross-talk`",
+        Field::Functional => "`--functional FILE`",
         Field::ResidualReduction => "`--consistent`",
     };
     Some(option)
@@ -152,12 +154,12 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
-        StudyError::Markers(
-            MarkerTrialError::Names(_) | MarkerTrialError::Calibration(CalibrationError::Markers { .. }),
-        ) => Some(
-            "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
+        StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. })) => {
+            Some(
+                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
              file, then give it with `--markers mine.toml`",
-        ),
+            )
+        }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
         StudyError::ForceColumns { .. } => Some(
             "name the columns with `--right BODY:PREFIX` and `--left BODY:PREFIX`, or describe them with `--loads XML`",

@@ -1,4 +1,4 @@
-//! What the content of a file is, by its first bytes.
+//! Identifies the content of a file by its first bytes.
 //!
 //! Files often have the name of another format, or contain a page of a server, a pointer to a large file or an archive
 //! in place of a recording. If a reader fails, the content is identified here, so that the error names the true reason.

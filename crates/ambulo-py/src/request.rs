@@ -3,7 +3,7 @@
 use crate::failure::{exception, refused};
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
-use ambulo::kinematics::calibration::HipRegression;
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::GroundSettings;
 use ambulo_cli::{Outputs, Request};
 use ambulo_results::{Convention, Keep};
@@ -70,6 +70,7 @@ impl Given {
             }
             "recording" => &mut job.recording,
             "static" => &mut job.standing,
+            "functional" => &mut job.functional,
             "marker_set" => &mut job.marker_set,
             "smpl" => &mut job.smpl,
             "grf" => &mut job.forces.table,
@@ -122,6 +123,7 @@ impl Given {
             "ground" => return self.take_ground(given, GroundSettings::NoContact, !given.switch()?),
             "refit" => settings.refit = given.switch()?,
             "fit" => settings.fit = Some(given.one_of(&MarkerFitting::ALL)?),
+            "knee_axis" => settings.knee_axis = given.one_of(&KneeAxis::ALL)?,
             "hip" => settings.hip = given.one_of(&HipRegression::ALL)?,
             "max_gap" => settings.longest_gap_s = given.number()?,
             "start" => settings.window.from_s = Some(given.number()?),

@@ -1,4 +1,4 @@
-//! How a motion is smoothed, as arguments.
+//! Arguments for the smoothing of a motion.
 
 use ambulo::motion::Smoother;
 use ambulo::motion::filter::LowPass;

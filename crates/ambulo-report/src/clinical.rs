@@ -233,8 +233,8 @@ enum Source {
     Movement(Movement, f64),
     /// The same for a movement defined for the right side: negated for the left side.
     Own(Movement, f64),
-    /// A movement of a leg that may have no coordinate, with the sign of what is displayed: the angle is then that of
-    /// the segments' markers, the moment that of the joint's reaction.
+    /// A movement of a leg that may have no coordinate, with the sign of what is displayed: the angle then comes from
+    /// the segments' markers, the moment from the joint's reaction.
     Joint(Movement, f64),
     /// The same, always without the coordinate.
     Derived(Movement, f64),
@@ -268,7 +268,7 @@ impl Row {
         Some(self.quantity(columns, entries.map(|entry| entry.coordinate.clone()), signs))
     }
 
-    /// A quantity with the same name on both sides, which is not that of a coordinate.
+    /// A quantity that belongs to no coordinate, with the same name on both sides.
     fn named(&self, column: &str, signs: [f64; 2], has: impl Fn(&str) -> bool) -> Option<ClinicalQuantity> {
         let columns = BySide::from([column, column]).map(str::to_owned);
         has(column).then(|| self.quantity(columns.clone(), columns, signs.into()))

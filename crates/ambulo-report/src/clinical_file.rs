@@ -10,7 +10,7 @@
 //! Signs: docs/CONVENTIONS.md, "Signs in panels". In the clinical convention the angles of pelvis and hips come from
 //! [`clinical_angles`]. Moments that no coordinate has come from the reactions in the joints
 //! ([`ambulo::dynamics::JointMoments`]), and angles of the knee from the markers of its segments
-//! ([`Outcome::knee_angles`]). All other numbers are those of the files with OpenSim signs, times a constant.
+//! ([`Outcome::knee_angles`]). All other numbers come from the files with OpenSim signs, times a constant.
 
 use crate::clinical::{ClinicalGroup, ClinicalNames, ClinicalQuantity, clinical_quantities};
 use ambulo::analysis::Analysis;

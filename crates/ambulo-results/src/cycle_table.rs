@@ -30,7 +30,7 @@ pub struct CycleRow {
 }
 
 /// Moments of the legs that no coordinate of the model may have, with the movement that they drive. The axis of an
-/// ankle's inversion is seldom that of a coordinate, so these moments of the ankle are in all tables.
+/// ankle's inversion seldom belongs to a coordinate, so these moments of the ankle are in all tables.
 pub const JOINT_MOMENTS: [(&str, Movement); 5] = [
     ("hip_rotation_moment", Movement::HipRotation),
     ("knee_adduction_moment", Movement::KneeAdduction),
@@ -40,8 +40,8 @@ pub const JOINT_MOMENTS: [(&str, Movement); 5] = [
 ];
 
 /// Angle, moment and power of every coordinate, the moments of the legs in the other planes, and the ground forces,
-/// over every cycle. Coordinates of a leg are cut
-/// into the cycles of that leg; those of pelvis and trunk into the cycles of both.
+/// over every cycle. Coordinates of a leg are cut into the cycles of that leg; coordinates of pelvis and trunk into the
+/// cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
     let moments = analysis.joint_moments(model);

@@ -1,4 +1,4 @@
-//! Which outputs of a run are written.
+//! The choice of outputs that a run writes.
 
 use crate::{CLINICAL, CYCLES, EVENTS, EXTERNAL_LOADS, PAGE, SHAPES, STANCES, SUMMARY, TIMES_AND_DISTANCES, TIMINGS};
 

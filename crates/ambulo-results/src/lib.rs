@@ -51,8 +51,8 @@ pub use sound::{EXPECTED, is_sound};
 pub use state_table::states_csv;
 pub use stream_columns::{columns_of_predictions, stream_columns, stream_row};
 pub use subject_summary::{
-    EventAgreementSummary, EventOrigin, HipsSummary, MarkerErrorSummary, MarkersSummary, PlateContactSummary,
-    PlateCornersSummary, RegionSummary, SegmentSummary, SubjectSummary,
+    EventAgreementSummary, EventOrigin, HipsSummary, KneeSummary, MarkerErrorSummary, MarkersSummary,
+    PlateContactSummary, PlateCornersSummary, RegionSummary, SegmentSummary, SubjectSummary,
 };
 pub use summary::{
     FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, MeasuredShare, PeakSummary,

@@ -2,6 +2,7 @@
 
 use ambulo::analysis::{BodyInMotion, Event, EventAgreement, event_agreement};
 use ambulo::findings::word;
+use ambulo::functional::CrossTalk;
 use ambulo::ground::plates::{ContactQuality, PlateContact};
 use ambulo::kinematics::calibration::{HipCentres, SegmentScale};
 use ambulo::kinematics::marker_fit::MarkerFit;
@@ -28,6 +29,9 @@ pub struct SubjectSummary {
     /// Hip centres of the built-in body; left out if it was not calibrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hips: Option<HipsSummary>,
+    /// Cross-talk of the knees of the built-in body; left out for knees that do not show it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub knees: Vec<KneeSummary>,
     /// Sizes of the segments of the built-in body.
     pub segments: Vec<SegmentSummary>,
     /// Which foot loaded which plate, and when.
@@ -52,13 +56,28 @@ pub struct SubjectSummary {
 pub struct HipsSummary {
     /// The name of a regression (`--hip`), `functional` or `recorded`.
     pub method: String,
-    /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded ones.
+    /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded
+    /// ones.
     pub expected_error_mm: Option<f64>,
     /// Place of the right one: forward, up and right from midway between the anterior spines, in axes through the
     /// spines [mm]. Recorded ones: from midway between both.
     pub right_mm: [f64; 3],
     /// Place of the left one [mm].
     pub left_mm: [f64; 3],
+}
+
+/// How far varus follows flexion at a knee, from the segments' own markers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct KneeSummary {
+    /// The side.
+    pub side: Side,
+    /// Correlation of varus with flexion.
+    pub r: f64,
+    /// Range of varus from 2.5 to 97.5 % of the frames [deg].
+    pub varus_range_deg: f64,
+    /// Turn of the knee axis about the long axis of the thigh that makes the variance of varus least [deg].
+    pub turn_deg: f64,
 }
 
 /// Quality of the marker fit.
@@ -193,6 +212,7 @@ impl SubjectSummary {
         SubjectSummary {
             turn_deg: body.laboratory.turn_deg,
             marker_sets: body.subject.sets.clone(),
+            knees: body.cross_talk.iter().filter_map(|(side, knee)| Some(KneeSummary::new(side, (*knee)?))).collect(),
             hips: report.map(|report| HipsSummary::new(&report.hips)),
             segments: segments.iter().map(SegmentSummary::new).collect(),
             plates: plate_contacts(body),
@@ -215,6 +235,7 @@ impl SubjectSummary {
             marker_sets: Vec::new(),
             markers: MarkersSummary::new(fit, regions, fit.errors.len()),
             hips: None,
+            knees: Vec::new(),
             segments: Vec::new(),
             plates: Vec::new(),
             plate_corners_m: Vec::new(),
@@ -262,6 +283,13 @@ impl PlateCornersSummary {
 impl SegmentSummary {
     fn new(scale: &SegmentScale) -> SegmentSummary {
         SegmentSummary { body: scale.body.clone(), factor: scale.factor, measured: scale.is_measured }
+    }
+}
+
+impl KneeSummary {
+    fn new(side: Side, knee: CrossTalk) -> KneeSummary {
+        let [varus_range_deg, turn_deg] = [knee.varus_range_rad, knee.turn_rad].map(f64::to_degrees);
+        KneeSummary { side, r: knee.r, varus_range_deg, turn_deg }
     }
 }
 

@@ -79,7 +79,8 @@
 
 #[doc(inline)]
 pub use ambulo_body::{
-    contact, dynamics, findings, formats, kinematics, model, motion, numerics, spatial, technical_markers, toml_reader,
+    contact, dynamics, findings, formats, functional, kinematics, model, motion, numerics, spatial, technical_markers,
+    toml_reader,
 };
 #[doc(inline)]
 pub use ambulo_walk::{gait, optimal};

@@ -2,7 +2,7 @@
 
 use crate::shared_data;
 use ambulo::findings::Findings;
-use ambulo::kinematics::marker_proposal::{MarkerProposals, propose_markers};
+use ambulo::kinematics::marker_proposal::{MarkerProposals, markers_at_joints, propose_markers};
 use ambulo::model::Side;
 use ambulo::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers, marker_template};
 use ambulo::motion::{Heading, MarkerPath, MarkerRecording};
@@ -83,6 +83,32 @@ fn a_standing_person_without_any_known_name_gets_proposals() {
     }
     println!("{right_segment} of {}", truth.markers.len());
     assert!(3 * right_segment >= 2 * truth.markers.len(), "{right_segment} of {}", truth.markers.len());
+}
+
+#[test]
+fn markers_that_a_body_needs_are_found_by_name_and_place_together() {
+    let Some(standing) = recording("motonms-unipd/Static1.c3d") else { return };
+    let hidden = [("RLE", "x1"), ("LLE", "x2"), ("RLM", "x5"), ("LLM", "x6")];
+    let standing = renamed(&standing, &hidden);
+    let found = markers_at_joints(&standing, &recognised(&standing));
+    for marker in &found {
+        println!("{}: {:?} {:?}", marker.name, marker.definition.side, marker.definition.landmark);
+    }
+    let side = |name: &str| Some(if name.starts_with('R') { Side::Right } else { Side::Left });
+    for (name, new) in hidden {
+        let marker = found.iter().find(|marker| marker.name == new).unwrap_or_else(|| panic!("{new}"));
+        let meaning = match &name[1..] {
+            "LE" => Landmark::LateralEpicondyle,
+            _ => Landmark::LateralMalleolus,
+        };
+        assert_eq!((marker.definition.landmark, marker.definition.side), (Some(meaning), side(name)), "{name}");
+    }
+    let proposed = propose_markers(&standing, Some(&recognised(&standing)), Heading::Facing);
+    assert!(proposed.statement.contains("mean build"), "{}", proposed.statement);
+    // Nothing is known of a person of whom no name is.
+    let nameless = renamed(&standing, &[("RASIS", "y1"), ("LASIS", "y2")]);
+    let few = RecognisedMarkers { markers: Vec::new(), ..recognised(&nameless) };
+    assert!(markers_at_joints(&nameless, &few).is_empty());
 }
 
 #[test]

@@ -11,10 +11,9 @@
 //! factors and is halved until |F|² falls below the largest of the last few values; ∂F/∂λ contains the dependence of
 //! friction on the normal force, which the friction disc of `proximal` does not. Redundant rows make W singular, and
 //! steps along the forces that move nothing leave the cones; a share of its diagonal is therefore added to the
-//! derivative (not to F), more where a step fails, as in the method of Levenberg and Marquardt. Where no step
-//! lowers |F|², the best forces are changed at random, or set to zero, and sweeps over the rows one by one (Gauss and
-//! Seidel, with the same projections) lead to the next place to start from. The iterate with the smallest departure is
-//! returned.
+//! derivative (not to F), more where a step fails, as in the method of Levenberg and Marquardt. Where no step lowers
+//! |F|², the best forces are changed at random, or set to zero. Sweeps over the rows one by one (Gauss and Seidel, with
+//! the same projections) then lead to the next start. The iterate with the smallest departure is returned.
 //!
 //! Source: Alart and Curnier 1991 for F; Jourdan, Alart and Jean 1998 for the sweeps (unverified pages). Derivatives
 //! derived above. Cost: one factorisation of n rows per step, n³/3 products.

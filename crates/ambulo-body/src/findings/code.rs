@@ -363,7 +363,8 @@ codes! {
         "Nothing to do.";
     CalibrationCrossTalk "calibration.cross_talk" Warning
         "Varus of a knee follows its flexion: the axis that its markers show is not that about which it bends."
-        "Check the markers of the epicondyles and the wand of the thigh, find the axis by a movement, or choose the axis \
+        "Check the markers of the epicondyles and the wand of the thigh, find the axis by a movement, or choose the \
+         axis \
          with the least cross-talk.";
     CalibrationOtherPerson "calibration.other_person" Warning
         "Standing trial and recording name different persons; the standing trial was used."

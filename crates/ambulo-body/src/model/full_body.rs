@@ -24,8 +24,8 @@
 //! | `hand_s`          | `wrist_flex_s`, `wrist_dev_s` (+ towards the thumb)                            | x, z              |
 //!
 //! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The
-//! subtalar axis is that of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. With tables that do
-//! not split the trunk there is no lumbar joint; the root is `torso`.
+//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. With tables
+//! that do not split the trunk there is no lumbar joint; the root is `torso`.
 
 use super::anthropometry::{Build, BuildError, Human, MovingParts};
 use super::{

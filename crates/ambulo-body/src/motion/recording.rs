@@ -75,7 +75,7 @@ pub enum MotionError {
         found: String,
         /// The model's coordinates.
         known: String,
-        /// Whether the columns are named as those of forces and centres of pressure are.
+        /// Whether the columns are named like forces and centres of pressure.
         are_forces: bool,
     },
     /// A required column of a force recording is missing.

@@ -1,8 +1,8 @@
 //! Smooths recorded samples to curves with two derivatives on a uniform time grid.
 //!
 //! Butterworth: the series is extended by odd reflection, low-pass filtered forwards and backwards, and a natural
-//! quintic spline through the extended series gives the derivatives, so that the ends of filter and spline are outside
-//! the data (as in OpenSim's inverse dynamics tool).
+//! quintic spline through the extended series gives the derivatives. So the ends of filter and spline are outside the
+//! data, as in OpenSim's inverse dynamics tool.
 //! Spline: a natural quintic smoothing spline whose smoothing parameter is chosen by generalised cross-validation for
 //! each coordinate (Woltring 1986); it also estimates the noise.
 

@@ -10,7 +10,7 @@ use ambulo::job::{
     Cutoff, EarthTurn, Filter, FootColumns, ForceCutoff, ForceFiles, HeadingAxis, Job, MarkerFitting, ModelChoice,
     PlateFoot, Processing, SensorStatements,
 };
-use ambulo::kinematics::calibration::HipRegression;
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::model::anthropometry::SegmentTable;
 use ambulo::motion::Window;
@@ -309,6 +309,10 @@ pub(crate) struct SubjectArgs {
     /// Standing trial of the same person: .c3d or .trc; for sensors a .sto with quaternions.
     #[arg(long = "static", value_name = "FILE")]
     pub(crate) still: Option<PathBuf>,
+    /// The same person in a movement of hips and knees (.c3d, .trc), which shows the hip centres and knee axes of the
+    /// built-in body (docs/MARKERS.md).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) functional: Option<PathBuf>,
     /// The person in recordings of several people: the prefix of the marker names, as Anna for Anna:LASI [default: such
     /// recordings are refused].
     #[arg(long, value_name = "NAME")]
@@ -351,6 +355,10 @@ pub(crate) struct SubjectArgs {
     #[arg(long, value_name = "NAME", default_value = HipRegression::default().word(),
         value_parser = one_of(&HipRegression::ALL))]
     pub(crate) hip: HipRegression,
+    /// Axes of the knees of the built-in body: those of the markers, or turned so that varus follows flexion least in
+    /// the recording.
+    #[arg(long, value_name = "NAME", default_value = KneeAxis::default().word(), value_parser = one_of(&KneeAxis::ALL))]
+    pub(crate) knee_axis: KneeAxis,
     /// Longest marker gap that is interpolated [s].
     #[arg(long, value_name = "S", default_value_t = FitSettings::default().longest_gap_s,
         value_parser = zero_or_more_seconds, allow_negative_numbers = true)]
@@ -375,6 +383,7 @@ impl SubjectArgs {
     fn job(self) -> Job {
         Job {
             standing: self.still,
+            functional: self.functional,
             subject: self.subject,
             size: StatedSize { mass_kg: self.mass, height_m: self.height },
             segments: self.figure,
@@ -390,6 +399,7 @@ impl SubjectArgs {
             fit: self.fit,
             longest_gap_s: self.max_gap,
             hip: self.hip,
+            knee_axis: self.knee_axis,
             force_delay_s: self.force_delay,
             ..Processing::default()
         }

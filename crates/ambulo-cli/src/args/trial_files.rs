@@ -68,6 +68,7 @@ impl TrialWords {
         let number = |number: Option<f64>| number.map(|number| OsString::from(number.to_string()));
         let files = [
             ("--static", path(&trial.standing, job.standing.is_some())),
+            ("--functional", path(&trial.functional, job.functional.is_some())),
             ("--model", path(&trial.model, job.model.is_some())),
             ("--grf", path(&trial.grf, job.forces.table.is_some())),
             ("--loads", path(&trial.loads, job.forces.loads.is_some())),

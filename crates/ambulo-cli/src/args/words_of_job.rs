@@ -5,7 +5,7 @@ use super::forces::Outputs;
 use super::words::Words;
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, Processing};
-use ambulo::kinematics::calibration::HipRegression;
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::GroundSettings;
 use ambulo_results::Convention;
 use std::ffi::OsString;
@@ -21,6 +21,7 @@ pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {
     words.value("--heading", job.sensors.heading.as_ref());
     words.value("--earth", job.sensors.earth);
     words.path("--static", job.standing.as_ref());
+    words.path("--functional", job.functional.as_ref());
     words.value("--subject", job.subject.as_ref());
     words.path("--grf", job.forces.table.as_ref());
     words.path("--loads", job.forces.loads.as_ref());
@@ -49,6 +50,7 @@ fn of_settings(settings: &Processing, words: &mut Words) {
     words.flag("--refit", settings.refit);
     words.value("--fit", settings.fit.map(|fit| word(&MarkerFitting::ALL, fit)));
     words.value("--hip", Some(settings.hip).filter(|hip| *hip != defaults.hip).map(HipRegression::word));
+    words.value("--knee-axis", Some(settings.knee_axis).filter(|axis| *axis != defaults.knee_axis).map(KneeAxis::word));
     let gap = Some(settings.longest_gap_s).filter(|gap| gap.to_bits() != defaults.longest_gap_s.to_bits());
     words.value("--max-gap", gap);
     words.value("--from", settings.window.from_s);

@@ -1,4 +1,4 @@
-//! `ambulo calibrate`: what force plates show about the predicted ground forces of a person.
+//! `ambulo calibrate`: calibrates the predicted ground forces of a person by force plates.
 
 use super::forces;
 use crate::args::{Handling, Outputs, PrintArgs};

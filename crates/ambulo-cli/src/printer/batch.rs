@@ -1,4 +1,4 @@
-//! Prints what `batch` found and computed.
+//! Prints the trials and the results of `batch`.
 
 use super::{plural, print_json, print_line, say};
 use crate::args::PrintArgs;

@@ -1,4 +1,4 @@
-//! Prints what `calibrate` found.
+//! Prints the outcome of `calibrate`.
 
 use super::{print_json, print_line, quoted};
 use crate::args::PrintArgs;

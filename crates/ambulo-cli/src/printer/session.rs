@@ -1,4 +1,4 @@
-//! Prints what `session` found.
+//! Prints the outcome of `session`.
 
 use super::{print_json, print_line};
 use crate::args::PrintArgs;

@@ -1,4 +1,4 @@
-//! Prints what `validate` found.
+//! Prints the outcome of `validate`.
 
 use super::{print_json, print_line};
 use crate::args::PrintArgs;

@@ -161,7 +161,7 @@ fn point_rate(header: &Header, parameters: &Parameters, remarks: &mut Vec<Remark
     Err(Error::Parameter { parameter: "POINT:RATE".into(), found, expected: "a frame rate above zero".into() })
 }
 
-/// The frame rate of a file whose header states another one than `POINT:RATE`: that of the header if the rate of the
+/// The frame rate of a file whose header and `POINT:RATE` differ: the rate of the header if the rate of the
 /// analog channels, over the samples per frame, agrees with it and not with the parameter.
 fn contradicted_rate(
     parameter: f64,
@@ -186,8 +186,8 @@ fn contradicted_rate(
         _ => (parameter, "POINT:RATE was used"),
     };
     let message = format!(
-        "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every speed \
-         and force depends on it; correct the one that is wrong"
+        "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every \
+         speed and force depends on it; correct the one that is wrong"
     );
     remarks.push(Remark::of_clock(message));
     used

@@ -60,6 +60,7 @@ def forces(
     mass: float | None = None,
     height: float | None = None,
     static: Recording | _Path | None = None,
+    functional: Recording | _Path | None = None,
     grf: Recording | Table | _Path | None = None,
     loads: _Path | bytes | None = None,
     right: str | None = None,
@@ -80,6 +81,7 @@ def forces(
     marker_set: _Path | bytes | None = None,
     fit: str | None = None,
     hip: str | None = None,
+    knee_axis: str | None = None,
     max_gap: float | None = None,
     convention: str | None = None,
     start: float | None = None,
@@ -116,6 +118,8 @@ def forces(
         Stature [m].
     static : Recording, str or path-like, optional
         Standing trial of the same person.
+    functional : Recording, str or path-like, optional
+        A movement of hips and knees of the same person, which shows the joints of the built-in body.
     grf : Recording, Table, str or path-like, optional
         Measured ground forces.
     loads : str, path-like or bytes, optional
@@ -154,6 +158,8 @@ def forces(
         How markers are fitted: frame by frame, or all frames together, which is the default for keypoints of video.
     hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
         Regression of the hip centres of the built-in body.
+    knee_axis : {"markers", "least-cross-talk"}, optional
+        Axes of the knees of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     convention : {"clinical", "opensim"}, optional
@@ -215,6 +221,7 @@ def forces(
         "heading": heading,
         "earth": earth,
         "static": inputs.path(static, "static"),
+        "functional": inputs.path(functional, "functional"),
         "grf": inputs.path(grf, "grf.mot"),
         "loads": inputs.path(loads, "loads.xml"),
         "marker_set": inputs.path(marker_set, "markers.xml"),
@@ -234,6 +241,7 @@ def forces(
         "markers": markers,
         "fit": fit,
         "hip": hip,
+        "knee_axis": knee_axis,
         "max_gap": max_gap,
         "convention": convention,
         "start": start,
@@ -291,6 +299,7 @@ def calibrate_person(
     right: str | None = None,
     left: str | None = None,
     static: Recording | _Path | None = None,
+    functional: Recording | _Path | None = None,
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
@@ -300,6 +309,7 @@ def calibrate_person(
     plates: Mapping[int, str] | None = None,
     fit: str | None = None,
     hip: str | None = None,
+    knee_axis: str | None = None,
     max_gap: float | None = None,
     force_delay: float | None = None,
 ) -> Person:
@@ -321,6 +331,8 @@ def calibrate_person(
         Body and column prefix of a foot, such as ``"calcn_r:ground_force_"``.
     static : Recording, str or path-like, optional
         Standing trial of the same person.
+    functional : Recording, str or path-like, optional
+        A movement of hips and knees of the same person, which shows the joints of the built-in body.
     mass : float, optional
         Body mass [kg].
     height : float, optional
@@ -339,6 +351,8 @@ def calibrate_person(
         How markers are fitted.
     hip : {"harrington", "hara", "bell", "plug-in-gait"}, optional
         Regression of the hip centres of the built-in body.
+    knee_axis : {"markers", "least-cross-talk"}, optional
+        Axes of the knees of the built-in body.
     max_gap : float, optional
         Longest marker gap that is interpolated [s].
     force_delay : float, optional
@@ -373,6 +387,7 @@ def calibrate_person(
         "right": right,
         "left": left,
         "static": inputs.path(static, "static"),
+        "functional": inputs.path(functional, "functional"),
         "marker_set": inputs.path(marker_set, "markers.xml"),
         "plates": plates and dict(plates),
         "mass": mass,
@@ -382,6 +397,7 @@ def calibrate_person(
         "markers": markers,
         "fit": fit,
         "hip": hip,
+        "knee_axis": knee_axis,
         "max_gap": max_gap,
         "force_delay": force_delay,
     }

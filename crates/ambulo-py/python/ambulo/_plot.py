@@ -38,7 +38,8 @@ def clinical_figure(result: Result, names: Sequence[str] | None, over: str) -> F
     figure, panels = plt.subplots(rows, columns, squeeze=False, figsize=(4 * columns, 2.6 * rows), layout="constrained")
     for panel, name in zip(panels.flat, names, strict=False):
         _draw(panel, result, table, name, over)
-    panels[0][0].legend(frameon=False)
+    # The first panel with the most words: the loads of a leg may be predicted in some of them.
+    max(panels.flat, key=lambda panel: len(panel.get_legend_handles_labels()[1])).legend(frameon=False)
     return figure
 
 

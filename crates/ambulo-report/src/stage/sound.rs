@@ -1,4 +1,4 @@
-//! Checks that a stage can be drawn: in a broken file bodies may be light years away or have no size.
+//! Checks that a stage can be drawn: in a broken file bodies may be extremely far away or have no size.
 
 use super::Stage;
 use crate::page::ViewShape;

@@ -1,4 +1,4 @@
-//! A figure that walks by its own torques on level ground, and what becomes of it.
+//! A figure that walks by its own torques on level ground, and the outcome of its walk.
 
 use super::controller::WalkController;
 use super::fall::Fall;

@@ -1,4 +1,4 @@
-//! Settings of a controller, and the errors of making one.
+//! Settings of a controller, and the errors when a controller cannot be made.
 
 use crate::dynamics::CurvedJointError;
 use crate::engine::WorldError;

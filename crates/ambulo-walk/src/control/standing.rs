@@ -1,4 +1,4 @@
-//! Standing, and the ways from a walk there and back: their plans, their gains, and where on them a figure is.
+//! Standing, stopping and walking off: their plans and gains, and the progress of a figure in them.
 //!
 //! The gains of a stop follow from the Riccati equation backwards from standing, and the gains of a start backwards
 //! from the walk that it joins. Standing is a plan of one time step that repeats. Feet that stand cannot be moved by

@@ -1,4 +1,4 @@
-//! Steps whose constraints could not be satisfied: the constraint that is violated most, and work that was used up.
+//! Steps whose constraints could not be satisfied: the most violated constraint, and exceeded work limits.
 
 use super::assemble::Assembly;
 use super::state::RowKey;

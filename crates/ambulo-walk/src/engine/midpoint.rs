@@ -12,8 +12,8 @@
 //! and J u = 0. The weight does its work over the displacement 2 h u, and a linear spring releases its own energy. What
 //! is left is the removal of drift, of third order in a step.
 //!
-//! Laws of contact, friction and limits hold for the velocities at the end of the step, so that sticking points stand
-//! still and an impact without restitution ends at once (Moreau's sweeping process with the theta method at one half):
+//! Laws of contact, friction and limits hold for the velocities at the end of the step. So sticking points stand still
+//! and an impact without restitution ends at once (Moreau's sweeping process with the theta method at one half):
 //!
 //!   2 u_n - u_n⁻ ≥ -e u_n⁻,  λ_n ≥ 0, complementary        friction against 2 u_t - u_t⁻
 //!

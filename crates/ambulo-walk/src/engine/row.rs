@@ -1,4 +1,4 @@
-//! Motion and forces at one instant: what a row of a table of a scene has.
+//! Motion and forces at one instant: the content of a row in the tables of a scene.
 //!
 //! The instant t is the start of a step of h. Steps of impulses keep velocities of the middle of steps, and their
 //! multipliers λ/h balance
@@ -17,8 +17,8 @@
 //! laws at t; forces of contact, limits and dry friction are means of the step. A Runge-Kutta step has all of them at
 //! t.
 //!
-//! Where a drive gives way, follows targets that a machine computes from step to step, or turns a ball joint, where a
-//! loop is being closed, and where the solver did not converge, forces are the plain multipliers of the step.
+//! In three cases, forces are the plain multipliers of the step. A drive gives way, follows targets that a machine
+//! computes from step to step, or turns a ball joint; a loop is being closed; or the solver did not converge.
 //!
 //! Pinned by: tests/scene_instants.rs
 

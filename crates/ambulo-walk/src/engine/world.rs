@@ -1,4 +1,4 @@
-//! The description of a simulated world: bodies, joints, closures, surfaces, obstacles, and what drives them.
+//! The description of a simulated world: bodies, joints, closures, surfaces, obstacles, and their drives.
 
 use super::joint::JointKind;
 use super::signal::Signal;

@@ -1,4 +1,4 @@
-//! The part of an objective that muscles have: metabolic power, moments relative to strength, and smooth motion.
+//! The terms of an objective that belong to muscles: metabolic power, moments relative to strength, and smooth motion.
 //!
 //! The largest costs are metabolic power by the efficiencies of muscles (Margaria 1968; unverified), 0.25 for positive
 //! and 1.2 for negative work, and muscle moments relative to strength. All costs are relative to the size of the body

@@ -1,4 +1,5 @@
-//! Plans and controllers of figures in a scene: walks without outside forces, and who follows them by torques.
+//! Plans and controllers of figures in a scene: walks without external forces, and controllers that follow them by
+//! torques.
 
 use super::SceneError;
 use super::built_entry::{ControlEntry, FigureWalkMode, WalkEntry};

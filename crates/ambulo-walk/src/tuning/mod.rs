@@ -1,4 +1,4 @@
-//! Gains of a controller found by trial: which settings survive more pushes and stay nearer to the plan.
+//! Gains of a controller found by trial: settings that survive more pushes and stay nearer to the plan.
 //!
 //! The feedback of a controller follows from its settings by the Riccati equation, which describes the walk near its
 //! plan alone. Strikes at other instants, the limits of muscles and the ankle of a foot that tips are not in it, so

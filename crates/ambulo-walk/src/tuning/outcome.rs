@@ -15,7 +15,7 @@ const SPEED: f64 = 0.5;
 ///
 ///   cost = mean over pushes of { 0 if it is survived, else 2 - t/T } + 10 D² + E²/2 + V/2
 ///
-/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad], E the same
+/// D is the root mean square deviation of hips, knees, ankles and the lumbar joint from the plan [rad]. E is the same
 /// deviation of their torques as shares of their strength, V the mean difference between speed and planned speed, as a
 /// share of the planned speed. All three come from level walking and from the pushes that were survived.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

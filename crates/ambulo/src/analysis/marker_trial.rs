@@ -8,6 +8,7 @@
 use super::fitted_feet::with_fitted_feet;
 use super::ground_agreement::PlateCoverage;
 use super::identity;
+use super::knee_axes;
 use super::known_bodies::KnownBodies;
 use super::laboratory_recording::LaboratoryRecording;
 use super::marker_use::report_use;
@@ -15,6 +16,7 @@ use super::progress::{Progress, Stage};
 use super::segment_angles::knee_angles;
 use super::subject::{BodySource, MarkerTrialError, Subject};
 use crate::findings::{Code, Findings};
+use crate::functional::CrossTalk;
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
 use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
 use crate::kinematics::calibration::assume_upright_trunk;
@@ -53,6 +55,8 @@ pub struct BodyInMotion {
     /// Varus and internal rotation of the knees from the markers of thigh and shank alone, in the frames of the
     /// recording [rad]; `None` where they do not suffice, or where the knee of the body turns in these planes itself.
     pub knees: BySide<Option<[Vec<f64>; 2]>>,
+    /// How far varus follows flexion at the knees of the built-in body.
+    pub cross_talk: BySide<Option<CrossTalk>>,
 }
 
 /// A recording of markers, and the body that is fitted to it.
@@ -113,7 +117,11 @@ pub(crate) fn fit_body_to_markers(
         let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
+    let mut cross_talk = BySide::default();
     if subject.calibration.is_some() {
+        if keypoints.is_none() {
+            cross_talk = knee_axes::cross_talk(&subject, &followed, findings);
+        }
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
@@ -125,12 +133,16 @@ pub(crate) fn fit_body_to_markers(
         None => knee_angles(&subject.model, &followed, &fit.motion),
     };
     let moving = on_floor.body_in_motion(subject, fit, findings, progress)?;
-    Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, ..moving })
+    Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, cross_talk, ..moving })
 }
 
 impl MarkerTrial<'_> {
     /// The markers of the standing trial in world axes, with the labels of the person.
-    fn standing_markers(&self, contradictions: &mut Vec<String>, findings: &mut Findings) -> Option<MarkerRecording> {
+    pub(super) fn standing_markers(
+        &self,
+        contradictions: &mut Vec<String>,
+        findings: &mut Findings,
+    ) -> Option<MarkerRecording> {
         let set = self.body.marker_set();
         let standing = identity::with_right_labels(self.standing?, "standing trial", set, contradictions, findings);
         let found = self.body.turned(&standing, findings).1.markers;
@@ -145,14 +157,15 @@ impl MarkerTrial<'_> {
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
-        let calibrated =
-            |findings: &mut Findings| Subject::of_source(&self.body, moving, whole.as_ref().or(standing), findings);
-        // A body that needs the motion besides the standing trial is not that of the other motions.
+        let from = whole.as_ref().or(standing);
+        let calibrated = |findings: &mut Findings| Subject::of_source(&self.body, moving, from, findings);
+        // A body that also needs markers of this motion cannot be shared with other motions.
         let subject = match (standing, self.bodies) {
             (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
             _ => calibrated(findings),
         };
-        Ok(self.with_technical_markers(subject?, moving, standing, findings))
+        let subject = subject?.with_chosen_knee_axes(&self.body, moving, from, findings)?;
+        Ok(subject.with_technical_markers(self.body.marker_set(), moving, standing, findings))
     }
 }
 
@@ -219,6 +232,7 @@ impl OnFloor<'_> {
             keypoints: None,
             contradictions: Vec::new(),
             knees: BySide::default(),
+            cross_talk: BySide::default(),
         })
     }
 }

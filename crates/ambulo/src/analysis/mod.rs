@@ -8,8 +8,10 @@ mod events;
 pub mod feasibility;
 mod fitted_feet;
 pub(crate) mod foot_progression;
+mod functional_joints;
 mod ground_agreement;
 pub(crate) mod identity;
+mod knee_axes;
 mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
@@ -35,6 +37,7 @@ pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
 pub use foot_progression::foot_progression;
+pub(crate) use functional_joints::joints_of_movement;
 #[doc(hidden)]
 pub use ground_agreement::ComparedSample;
 pub use ground_agreement::{

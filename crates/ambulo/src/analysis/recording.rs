@@ -102,7 +102,7 @@ impl Analysis {
         JointMoments::new(model, &self.trajectory, self.ground.loads())
     }
 
-    /// The reactions in all joints; [`Analysis::forces`] has those of the joints to ground only.
+    /// The reactions in all joints; [`Analysis::forces`] has only the reactions of joints to ground.
     #[must_use]
     pub fn reactions(&self, model: &Model) -> ReactionReader<'_> {
         ReactionReader::new(model, &self.trajectory, self.ground.loads())

@@ -13,7 +13,7 @@
 //! | m_i | the recorded marker, in the world | m |
 //! | δ | rotation vector of a step, from the rotation of the fitted body on | rad |
 //!
-//! The angles are those of the shank in the thigh in the order flexion, adduction, rotation, with the axes of the joint
+//! The angles describe the shank in the thigh in the order flexion, adduction, rotation, with the axes of the joint
 //! coordinate system in the neutral posture.
 //!
 //! Source: as Plug-in-Gait (Kadaba 1990, Davis 1991; unverified), whose segments also turn about the centre of the

@@ -275,8 +275,8 @@ fn is_covered<'a>(side: Side, span: [f64; 2], loaded: impl Iterator<Item = &'a L
 /// In double support with a measured foot, the rest of what the motion requires would be the other foot's; but then one
 /// foot gets the error of the total. Over 21 stances of eight subjects in four laboratories whose plate was left out,
 /// the moments differ from the measured ones by 0.11 (ankle), 0.12 (knee) and 0.17 (hip) N.m/kg (rms) with the
-/// prediction, by 0.11, 0.14 and 0.23 with the rest of the forces, and by 0.23, 0.19 and 0.19 with the rest of the
-/// wrench.
+/// prediction. They differ by 0.11, 0.14 and 0.23 with the rest of the forces, and by 0.23, 0.19 and 0.19 with the rest
+/// of the wrench.
 pub(crate) fn completed(
     model: &Model,
     grid: TimeGrid,

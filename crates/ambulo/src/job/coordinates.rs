@@ -42,9 +42,8 @@ fn reject_marker_fields(job: &Job) -> Result<(), JobError> {
         (Field::Plates, !job.plates.is_empty()),
         (Field::Segments, job.has_other_segments()),
         (Field::Fit, job.settings.fit.is_some()),
-        (Field::Hip, job.has_other_hip()),
     ];
-    let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    let Some((field, _)) = given.into_iter().chain(job.of_joints()).find(|(_, given)| *given) else { return Ok(()) };
     let what = format!("the {} is for markers (.c3d, .trc); recorded coordinates have a model", field.name());
     Err(JobError::new(&[field], what).within(job.shown()))
 }

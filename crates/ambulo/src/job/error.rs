@@ -71,6 +71,10 @@ pub enum Field {
     Fit,
     /// The regression of the hip centres.
     Hip,
+    /// The axes of the knees.
+    KneeAxis,
+    /// [`Job::functional`](super::Job::functional)
+    Functional,
     /// The residual reduction.
     ResidualReduction,
 }
@@ -106,6 +110,8 @@ impl Field {
             Field::ForceDelay => "force delay",
             Field::Fit => "marker fit",
             Field::Hip => "regression of the hip centres",
+            Field::KneeAxis => "choice of the knee axes",
+            Field::Functional => "movement that shows the joints",
             Field::ResidualReduction => "residual reduction",
         }
     }

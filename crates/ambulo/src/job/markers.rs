@@ -6,8 +6,9 @@ use super::laboratory::read_laboratory_file;
 use super::model_file::read_model;
 use super::values::PlateFoot;
 use super::{Job, Reading, ground_table};
+use crate::findings::Findings;
 use crate::model::marker_set::MarkerSet;
-use crate::study::{MarkerBody, MarkerSource, PlateAssignment, Source, StandingTrial, standing_trial};
+use crate::study::{LaboratoryFile, MarkerBody, MarkerSource, PlateAssignment, Source, StandingTrial, standing_trial};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -24,8 +25,9 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
     let plates = job.plates.iter().flat_map(statements);
     let markers = MarkerSource { trial, standing, body, plates: plates.collect() };
     let forces = ground_table::read(job, reading)?;
+    let movement = job.functional.as_deref().map(|path| movement(path, job, reading)).transpose()?;
     let source = Source::markers(markers);
-    Ok(Source { forces, added_mass: job.added_mass.clone(), stated: job.size, ..source })
+    Ok(Source { forces, added_mass: job.added_mass.clone(), stated: job.size, movement, ..source })
 }
 
 /// The given model, or the size and mass of the person for the built-in body.
@@ -65,12 +67,8 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         let what = "the height has no effect with a model and a standing trial, which gives the model its lengths";
         return Err(JobError::new(&[Field::Height], what));
     }
-    let of_the_built_in_body = [
-        (Field::Markers, job.markers.is_some()),
-        (Field::Segments, job.has_other_segments()),
-        (Field::Hip, job.has_other_hip()),
-    ];
-    match of_the_built_in_body.into_iter().find(|(_, given)| *given) {
+    let of_the_built_in_body = [(Field::Markers, job.markers.is_some()), (Field::Segments, job.has_other_segments())];
+    match of_the_built_in_body.into_iter().chain(job.of_joints()).find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
                 "the {} has no effect with a model, which has its own segments and markers; it is for the built-in \
@@ -81,6 +79,14 @@ pub(super) fn check(job: &Job) -> Result<(), JobError> {
         }
         None => Ok(()),
     }
+}
+
+/// A movement of the person that shows joint centres and axes.
+fn movement(path: &Path, job: &Job, reading: &mut Reading<'_>) -> Result<Arc<LaboratoryFile>, JobError> {
+    reading.read.push(path.to_owned());
+    let Reading { files, .. } = reading;
+    let file = read_laboratory_file(path, *files, &mut Findings::default())?;
+    Ok(Arc::new(file.of_person(job.subject.as_deref()).in_file(path)?))
 }
 
 /// The standing trial of the person, which other jobs may share.

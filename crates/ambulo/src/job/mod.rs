@@ -68,7 +68,7 @@ pub use values::{
 
 use crate::analysis::Subject;
 use crate::findings::Findings;
-use crate::kinematics::calibration::HipRegression;
+use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
 use read_once::{Models, StandingTrials};
@@ -93,6 +93,8 @@ pub struct Job {
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
+    /// The same person in a movement of hips and knees, which shows the joint centres and axes of the built-in body.
+    pub functional: Option<PathBuf>,
     /// The person in recordings of several people: the prefix of the names of the markers. By default such recordings
     /// are refused.
     pub subject: Option<String>,
@@ -206,6 +208,7 @@ impl Default for Job {
             recording: None,
             trial: None,
             standing: None,
+            functional: None,
             subject: None,
             model: None,
             marker_set: None,
@@ -261,7 +264,7 @@ impl Job {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let ForceFiles { table, loads, .. } = &self.forces;
         let others = [&self.recording, &self.standing, &self.marker_set, &self.smpl, table, loads];
-        let more = [&self.person, &self.device, &self.thresholds];
+        let more = [&self.person, &self.device, &self.thresholds, &self.functional];
         let files = others.into_iter().chain(more).flatten().chain(&self.setups).map(PathBuf::as_path);
         files.chain(self.model_file()).chain(self.markers.as_deref().map(Path::new))
     }
@@ -271,9 +274,13 @@ impl Job {
         self.recording().display().to_string()
     }
 
-    /// Whether a regression of the hip centres of the built-in body was chosen.
-    fn has_other_hip(&self) -> bool {
-        self.settings.hip != HipRegression::default()
+    /// Choices of joint centres and axes of the built-in body, and whether each was made.
+    fn of_joints(&self) -> [(Field, bool); 3] {
+        [
+            (Field::Hip, self.settings.hip != HipRegression::default()),
+            (Field::KneeAxis, self.settings.knee_axis != KneeAxis::default()),
+            (Field::Functional, self.functional.is_some()),
+        ]
     }
 
     /// Whether segment masses of the built-in body were chosen.

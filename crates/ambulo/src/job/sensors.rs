@@ -114,10 +114,9 @@ fn reject_unused_fields(job: &Job) -> Result<(), JobError> {
         (Field::Markers, job.markers.is_some()),
         (Field::MarkerSet, job.marker_set.is_some()),
         (Field::Plates, !job.plates.is_empty()),
-        (Field::Hip, job.has_other_hip()),
         (Field::Segments, job.model_file().is_some() && job.has_other_segments()),
     ];
-    let Some((field, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    let Some((field, _)) = given.into_iter().chain(job.of_joints()).find(|(_, given)| *given) else { return Ok(()) };
     let what = format!("the {} has no effect for orientations of sensors", field.name());
     Err(JobError::new(&[field], what).within(job.shown()))
 }

@@ -7,7 +7,7 @@ use super::{Job, json};
 use crate::analysis::Adjustable;
 use crate::analysis::feasibility::Thresholds;
 use crate::ground::predict::PersonalErrors;
-use crate::kinematics::calibration::HipRegression;
+use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::kinematics::marker_fit::{FitMethod, FitSettings, OutlierDetection, SmoothnessPrior};
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
@@ -52,6 +52,8 @@ pub struct Processing {
     pub longest_gap_s: f64,
     /// How the built-in body finds the centres of the hips.
     pub hip: HipRegression,
+    /// How the built-in body finds the axes of the knees.
+    pub knee_axis: KneeAxis,
 }
 
 impl Default for Processing {
@@ -70,6 +72,7 @@ impl Default for Processing {
             fit: None,
             longest_gap_s: FitSettings::default().longest_gap_s,
             hip: HipRegression::default(),
+            knee_axis: KneeAxis::default(),
         }
     }
 }
@@ -140,6 +143,7 @@ pub(super) fn read(job: &Job, tracked: Option<TrackedTasks>, files: &mut dyn Fil
         },
         marker_fit: own.marker_fit(tracked),
         hip: own.hip,
+        knee_axis: own.knee_axis,
         refit: own.refit,
         residual_reduction: own.residual_reduction,
         thresholds: thresholds.unwrap_or_default(),

@@ -93,7 +93,6 @@ fn check(job: &Job) -> Result<(), JobError> {
         (Field::Markers, job.markers.is_some()),
         (Field::Segments, job.has_other_segments()),
         (Field::Fit, job.settings.fit.is_some()),
-        (Field::Hip, job.has_other_hip()),
     ];
     if let Some((field, _)) = never.into_iter().find(|(_, given)| *given) {
         let what = format!("the {} has no effect for a .b3d, which has its own ground forces", field.name());
@@ -102,7 +101,7 @@ fn check(job: &Job) -> Result<(), JobError> {
     if job.model.is_some() {
         return markers::check(job);
     }
-    match of_markers.into_iter().find(|(_, given)| *given) {
+    match of_markers.into_iter().chain(job.of_joints()).find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
                 "the {} is for markers, but the file's own model and coordinates are used; expected a model, or the \

@@ -79,7 +79,7 @@ fn has_one_body<R: AsRef<Outcome>>(runs: &[Result<R, String>]) -> bool {
     outcomes.all(|outcome| every_number(outcome) == first)
 }
 
-/// All numbers and names of a body, without the markers that a trial adds to those of the calibration.
+/// All numbers and names of a body, without the markers that a trial adds to the calibration.
 fn every_number(outcome: &Outcome) -> String {
     let calibrated = subject(outcome).and_then(|subject| subject.calibration.as_ref());
     let is_shared =

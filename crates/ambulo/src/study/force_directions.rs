@@ -31,8 +31,13 @@ const TURNED: f64 = 0.8;
 const NOT_TURNED: f64 = 0.5;
 /// Horizontal forces below this share of the weight, rms, show no direction.
 const SHOWN_BW: f64 = 0.012;
-/// Shortest and longest step [s]. A person who stands with feet apart may push them sideways.
+/// Shortest and longest step [s]; in a longer one, of a person who walks very slowly, the body passes over the foot. A
+/// person who stands with feet apart may push them sideways.
 const STEP_S: [f64; 2] = [0.15, 1.5];
+const SLOW_STEP_S: f64 = 4.0;
+/// The mass centre passes over a foot if it travels further than a foot is long while the foot is loaded [m]; a person
+/// who stands sways by a few centimetres.
+const PASSES_M: f64 = 0.3;
 /// Frames with less vertical load, as a share of the weight, are left out: the centre of pressure is uncertain.
 const LOADED_BW: f64 = 0.1;
 /// The vertical forces of all feet are complete if they fit the motion within this share of the weight.
@@ -101,19 +106,7 @@ impl ForceDirections {
         }
         let turned = sensors.iter().enumerate().filter_map(|(k, sensor)| Some((k, sensor.sums.turned_fault(&body)?)));
         let mut found: Vec<(usize, Fault)> = turned.collect();
-        for s in &sensors {
-            eprintln!(
-                "DBG dir {} r {:?} rms {:?} exp {:?} n {} steps {}",
-                s.name,
-                [0, 1].map(|a| s.sums.agreement(a)),
-                s.sums.lever.measured.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
-                s.sums.lever.expected.map(|x| (x / s.sums.frames.max(1) as f64).sqrt() / body.weight_n),
-                s.sums.frames,
-                s.sums.steps
-            );
-        }
         let flipped = body.flipped(&sensors, &found);
-        eprintln!("DBG flipped {flipped:?} newton {}", body.fits_newton(&sensors, &flipped));
         if body.fits_newton(&sensors, &flipped) {
             found.extend(flipped);
         }
@@ -171,16 +164,30 @@ impl Body {
             let whole = contacts_from_force(&force.times, &vertical).into_iter();
             // A step may be cut by one end of the recording; a person who stands is cut by both.
             for [from, to] in whole.filter(|c| c.strike_s.or(c.off_s).is_some()).map(|c| c.span(first, last)) {
-                if !(STEP_S[0]..=STEP_S[1]).contains(&(to - from)) {
+                let inside: Vec<usize> =
+                    (0..self.grid.frames).filter(|i| (from..=to).contains(&self.grid.time(*i))).collect();
+                if !self.is_step(to - from, &inside) {
                     continue;
                 }
                 let before = sums.frames;
-                let inside = (0..self.grid.frames).filter(|i| (from..=to).contains(&self.grid.time(*i)));
-                inside.for_each(|frame| self.add(&mut sums, force, frame, sensor.axes));
+                inside.iter().for_each(|frame| self.add(&mut sums, force, *frame, sensor.axes));
                 sums.steps += usize::from(sums.frames > before);
             }
         }
         sums
+    }
+
+    /// Whether a foot that is loaded for so long, in these frames, makes a step.
+    fn is_step(&self, duration_s: f64, frames: &[usize]) -> bool {
+        let passes = || {
+            let ends = frames.first().zip(frames.last());
+            ends.is_some_and(|(first, last)| {
+                let way = self.center[*last] - self.center[*first];
+                (way - self.up * self.up.dot(&way)).norm() > PASSES_M
+            })
+        };
+        let [shortest_s, longest_s] = STEP_S;
+        duration_s >= shortest_s && (duration_s <= longest_s || duration_s <= SLOW_STEP_S && passes())
     }
 
     fn add(&self, sums: &mut Sums, force: &ForceRecording, frame: usize, axes: [Vec3; 2]) {

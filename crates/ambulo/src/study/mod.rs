@@ -1,4 +1,4 @@
-//! From a recording to the forces behind it: the one road that the command, the validation and every other program
+//! From a recording to the forces behind it: the single path that the command, the validation and every other program
 //! takes.
 //!
 //! ```text

@@ -17,6 +17,7 @@ use super::weighing::Carried;
 use crate::analysis::feasibility::Person;
 use crate::analysis::{
     AnalysisError, BodyInMotion, BodySource, LaboratoryRecording, MarkerTrial, Progress, Stage, fit_body_to_markers,
+    joints_of_movement,
 };
 use crate::findings::{Code, Findings};
 use crate::ground::plates::{ContactQuality, PlateContact};
@@ -35,6 +36,7 @@ use crate::numerics::median;
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::table::Table;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A body and the forces under its feet, as observed.
 pub(super) struct Observation {
@@ -69,6 +71,7 @@ struct Statements {
     device: Option<Table>,
     added_mass: Vec<AddedMass>,
     stated: StatedSize,
+    movement: Option<Arc<LaboratoryFile>>,
 }
 
 /// The kind of recording that a body in motion was made from.
@@ -178,9 +181,9 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
-        let Source { recording, forces, device, added_mass, stated } = self;
+        let Source { recording, forces, device, added_mass, stated, movement } = self;
         let statements =
-            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated };
+            Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated, movement };
         let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
         match recording {
             Recording::Coordinates { model, motion } => {
@@ -437,7 +440,13 @@ impl Statements {
         let smoothing = SmoothSettings { smoother: settings.smoother, window: whole, rate_hz: None };
         let smoothed = smooth(model, &body.fit.motion, smoothing, ignored).map_err(AnalysisError::Motion)?;
         let trajectory = Trajectory::complete(model, smoothed, ignored).map_err(AnalysisError::Trajectory)?;
-        Ok(Carried::new(model, &trajectory, &forces, &body.subject.person.soles, Some(&body)).estimates())
+        let subject = &body.subject;
+        let weighed = |body: Option<&BodyInMotion>| {
+            Carried::new(model, &trajectory, &forces, &subject.person.soles, body).estimates()
+        };
+        let of_plates = weighed(Some(&body));
+        // Plates that are late measure no foot from strike to off; their loads weigh the person all the same.
+        Ok(if of_plates.is_empty() { weighed(None) } else { of_plates })
     }
 
     /// The body, calibrated, scaled or as it is, following the markers.
@@ -479,13 +488,20 @@ impl Statements {
         if let Some(standing) = standing {
             report_other_person(&markers.trial.subject, &standing.subject, findings);
         }
-        let trial = MarkerTrial {
+        let mut trial = MarkerTrial {
             trial: &trial,
             standing: standing.map(|standing| &standing.recording),
             bodies: standing.map(|standing| &standing.bodies),
             body,
             plate_feet: &plate_feet,
         };
+        let shown;
+        if let (Some(movement), BodySource::BuiltIn { person, set }) = (&self.movement, &trial.body) {
+            let joints = joints_of_movement(&trial, &movement.recording, findings)?;
+            let measurements = BodyMeasurements { joints, ..person.measurements };
+            shown = calibration::PersonMeasurements { measurements, ..(*person).clone() };
+            trial.body = BodySource::BuiltIn { person: &shown, set: *set };
+        }
         Ok(fit_body_to_markers(&trial, &settings.marker_fit, findings, progress)?)
     }
 }
@@ -588,7 +604,7 @@ impl MarkerSource {
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,
             height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
             measurements: BodyMeasurements {
-                joints: JointCentres { hip: settings.hip, ..JointCentres::default() },
+                joints: JointCentres { hip: settings.hip, knee_axis: settings.knee_axis, ..JointCentres::default() },
                 ..BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name)))
             },
         })

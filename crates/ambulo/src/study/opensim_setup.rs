@@ -1,4 +1,4 @@
-//! Scaling and marker fit of OpenSim's set-ups, in our terms.
+//! Converts scaling and marker fit of OpenSim's set-ups to settings of Ambulo.
 
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{CoordinateTask, TaskTarget};

@@ -1,4 +1,4 @@
-//! Where the forces of a study come from, and how its body follows what was recorded.
+//! The source of the forces of a study, and the fit of its body to the recording.
 
 use super::region_fit::RegionFit;
 use crate::analysis::{BodyInMotion, Event};

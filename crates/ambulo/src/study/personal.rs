@@ -1,5 +1,5 @@
-//! The calibration of a person: what force plates show about the prediction in some trials, for the other trials of the
-//! person.
+//! The calibration of a person: errors of the prediction against force plates in some trials, for the other trials of
+//! the person.
 
 use super::outcome::{Outcome, PredictedGround};
 use super::quality::QualityState;

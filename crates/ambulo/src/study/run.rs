@@ -1,4 +1,4 @@
-//! The road from a recording to forces.
+//! Runs a study: from a recording to forces.
 
 use super::error::StudyError;
 use super::force_directions::ForceDirections;
@@ -11,7 +11,7 @@ use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, QualityEvidence, RecordedFaults, StanceHeights};
+use super::quality::{Measure, Quality, QualityEvidence, RecordedFaults, StanceHeights};
 use super::refit::refitted;
 use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
@@ -187,71 +187,87 @@ struct Computed {
     force_origin: ForceOrigin,
 }
 
+/// What is found out about data and movement.
+struct Judgement {
+    activity: Activity,
+    strides: TimesAndDistances,
+    stances: Vec<Stance>,
+    verdict: Verdict,
+    quality: Quality,
+}
+
 impl Computed {
     /// With activity, verdict and quality.
     fn judged(self, settings: &Settings, findings: &mut Findings) -> Outcome {
-        let Computed { body, person, analysis, prediction, mass, tracking, processing, force_origin, .. } = self;
+        let Judgement { activity, strides, stances, verdict, quality } = self.judgement(settings, findings);
+        let Computed { body, analysis, force_origin, .. } = self;
         let loads = self.loads.as_ref();
-        let stances = stances(&body, &person, &analysis, prediction.as_ref(), loads, processing);
-        let activity = recognised(&body, &person, &analysis, &stances, &force_origin, findings);
-        let judged = Judged {
-            activity: activity.kind,
-            stances: &stances,
-            cutoff_hz: processing.smoother.cutoff_hz(),
-            model: &body,
-            person: &person,
-            analysis: &analysis,
-            device: self.device.as_deref(),
-            checks: prediction.as_ref().map(|found| &found.checks),
-        };
-        let verdict = judged.verdict(settings, &force_origin, &self.partly_measured, findings);
-        let verdict = without_faults_of_data(verdict, tracking.as_ref(), &mass, &self.idle, &force_origin);
-        let verdict = self.directions.set_aside(verdict, &force_origin);
-        let listed = loads.map_or_else(|| stances_of(&analysis, prediction.as_ref()), |loads| loads.stances.clone());
-        let unmeasured_leg = UnmeasuredLeg::of(&listed, &self.idle);
-        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
-        let strides = times_and_distances(&body, &person.soles, &analysis);
-        let by_gait = || tempo_of_gait(&body, &person, &analysis, &stances, &strides, activity.kind, findings);
-        let evidence = QualityEvidence {
-            recorded: self.recorded.as_ref(),
-            smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
-            is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
-            force_origin,
-            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
-            tracking: tracking.as_ref(),
-            place_is_derived: self.place_is_derived,
-            mass: &mass,
-            not_measured: &self.not_measured,
-            model: &body,
-            idle: &self.idle,
-            unmeasured_leg: unmeasured_leg.as_ref(),
-            directions: &self.directions,
-            heights: StanceHeights::of(&body, &analysis.trajectory, &person.soles, &stances, activity.kind),
-            verdict: &verdict,
-            delay: self.timing.delay.filter(|_| force_origin == ForceOrigin::Measured),
-            tempo: self.timing.tempo.or_else(by_gait),
-        };
         Outcome {
-            stances: listed,
+            stances,
             completed: loads.and_then(|loads| loads.complete(&body, &analysis)),
             force_delay_s: self.timing.delay.map(|delay| delay.delay_s),
-            quality: evidence.quality(),
-            mass: mass.after_reduction(body.mass()),
-            tracking,
+            quality,
+            mass: self.mass.after_reduction(body.mass()),
+            tracking: self.tracking,
             activity,
             times_and_distances: strides,
             body,
-            person,
+            person: self.person,
             analysis,
             force_origin: loads.and_then(StanceLoads::rule).map_or(force_origin, |rule| ForceOrigin::Mixed { rule }),
-            prediction,
+            prediction: self.prediction,
             residual_reduction: self.reduction,
             device: self.device,
             not_measured: self.not_measured.into_iter().map(|(id, _)| id).collect(),
             verdict,
-            processing: Processing::of(&processing),
+            processing: Processing::of(&self.processing),
             subject: self.subject,
         }
+    }
+
+    fn judgement(&self, settings: &Settings, findings: &mut Findings) -> Judgement {
+        let Computed { body, person, analysis, mass, processing, force_origin, .. } = self;
+        let (loads, prediction, tracking) = (self.loads.as_ref(), self.prediction.as_ref(), self.tracking.as_ref());
+        let falls = stances(body, person, analysis, prediction, loads, *processing);
+        let activity = recognised(body, person, analysis, &falls, force_origin, findings);
+        let judged = Judged {
+            activity: activity.kind,
+            stances: &falls,
+            cutoff_hz: processing.smoother.cutoff_hz(),
+            model: body,
+            person,
+            analysis,
+            device: self.device.as_deref(),
+            checks: prediction.map(|found| &found.checks),
+        };
+        let verdict = judged.verdict(settings, force_origin, &self.partly_measured, findings);
+        let verdict = without_faults_of_data(verdict, tracking, mass, &self.idle, force_origin);
+        let verdict = self.directions.set_aside(verdict, force_origin);
+        let stances = loads.map_or_else(|| stances_of(analysis, prediction), |loads| loads.stances.clone());
+        let unmeasured_leg = UnmeasuredLeg::of(&stances, &self.idle);
+        unmeasured_leg.iter().for_each(|leg| leg.report(findings));
+        let strides = times_and_distances(body, &person.soles, analysis);
+        let by_gait = || tempo_of_gait(body, person, analysis, &falls, &strides, activity.kind, findings);
+        let evidence = QualityEvidence {
+            recorded: self.recorded.as_ref(),
+            smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
+            is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
+            force_origin: *force_origin,
+            is_never_complete: loads.is_some_and(StanceLoads::are_incomplete) && analysis.residual.is_none(),
+            tracking,
+            place_is_derived: self.place_is_derived,
+            mass,
+            not_measured: &self.not_measured,
+            model: body,
+            idle: &self.idle,
+            unmeasured_leg: unmeasured_leg.as_ref(),
+            directions: &self.directions,
+            heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &falls, activity.kind),
+            verdict: &verdict,
+            delay: self.timing.delay.filter(|_| *force_origin == ForceOrigin::Measured),
+            tempo: self.timing.tempo.or_else(by_gait),
+        };
+        Judgement { quality: evidence.quality(), activity, strides, stances, verdict }
     }
 }
 

@@ -4,7 +4,7 @@ use super::force_filter::ForceFilter;
 use crate::analysis::Adjustable;
 use crate::analysis::feasibility::Thresholds;
 use crate::ground::predict::PredictSettings;
-use crate::kinematics::calibration::HipRegression;
+use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::kinematics::marker_fit::FitSettings;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, Window};
@@ -36,6 +36,8 @@ pub struct Settings {
     pub marker_fit: FitSettings,
     /// How the built-in body finds the centres of the hips.
     pub hip: HipRegression,
+    /// How the built-in body finds the axes of the knees.
+    pub knee_axis: KneeAxis,
     /// Whether a recorded motion is changed so that loaded feet do not slide.
     pub refit: bool,
     /// Residual reduction: what may change so that the motion agrees with the ground forces; `None` changes nothing.
@@ -81,6 +83,7 @@ impl Default for Settings {
             prediction: PredictSettings::default(),
             marker_fit: FitSettings::default(),
             hip: HipRegression::default(),
+            knee_axis: KneeAxis::default(),
             refit: false,
             residual_reduction: None,
             thresholds: Thresholds::default(),

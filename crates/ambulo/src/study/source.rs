@@ -32,6 +32,8 @@ pub struct Source {
     /// Mass and stature that a given model is scaled to, if no standing trial scales it. The built-in body has its own
     /// ([`MarkerBody::BuiltIn`]).
     pub stated: StatedSize,
+    /// A movement of the same person that shows the hip centres and the knee axes of the built-in body.
+    pub movement: Option<Arc<LaboratoryFile>>,
 }
 
 /// The kinds of recording.
@@ -203,6 +205,7 @@ impl Source {
             device: None,
             added_mass: Vec::new(),
             stated: StatedSize::default(),
+            movement: None,
         }
     }
 

@@ -3,10 +3,11 @@
 //! Its moments, powers and reactions rest on predicted forces (or are unknown), while the residual is checked in the
 //! stances of the other leg and cannot warn. Two cases look alike in the tables:
 //!
-//! - The step was beside the plates, over an edge, or on a plate with the other foot: laboratories with one plate measure
-//!   one leg a trial, as planned. The data are good, and the leg is marked; spoiled steps have their own warnings.
-//! - The foot stood on a plate that gave nothing: it was off, or left out by the user, or the file does not describe it.
-//!   A load is lost; this is a warning, and the data are doubtful.
+//! - The step was beside the plates, over an edge, or on a plate with the other foot: laboratories with one plate
+//!   measure one leg a trial, as planned. The data are good, and the leg is marked; spoiled steps have their own
+//!   warnings.
+//! - The foot stood on a plate that gave nothing: it was off, or left out by the user, or the file does not describe
+//!   it. A load is lost; this is a warning, and the data are doubtful.
 //!
 //! Pinned by: tests/stance_loads.rs
 

@@ -75,9 +75,12 @@ const SEED: u64 = 7;
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let write = match words {
+        [word, only @ ..] if word == "--recordings" && only.len() < 2 => {
+            return super::fit_methods::run(only.first().map_or("", String::as_str));
+        }
         [] => false,
         [word] if word == "--write" => true,
-        _ => return Err(format!("unknown option `{}`, expected --write", words.join(" "))),
+        _ => return Err(format!("unknown option `{}`, expected --write or --recordings", words.join(" "))),
     };
     let mut page =
         format!("# Marker fitting, timed\n\nOpenSim ran in the same run, right after ours.\n\n{}\n\n", machine());

@@ -8,6 +8,7 @@
 //! Times of our own code are CPU time of the thread, as in the peers' programs, so that other work on the machine does
 //! not count. The `ambulo` command is measured in wall time. Everything is also written to `target/bench.csv`.
 
+mod fit_methods;
 mod gait;
 pub(crate) mod human;
 pub(crate) mod markers;

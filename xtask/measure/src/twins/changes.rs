@@ -109,14 +109,23 @@ pub(super) fn scaled(trial: &mut Trial, factor: f64) -> Option<()> {
 /// A horizontal force of all plates with the wrong sign: along the walk, or across it.
 pub(super) fn mirrored_force(trial: &mut Trial, is_along: bool) -> Option<()> {
     let walks_along = walked_axis(&trial.moving)?;
-    for plate in trial.moving.platforms().ok()?.iter().filter(|plate| matches!(plate.kind, 2 | 4)) {
+    let mut mirrored = 0;
+    for plate in trial.moving.platforms().ok()? {
         let [a, b, ..] = plate.corners;
         let x_axis = usize::from((a[1] - b[1]).abs() > (a[0] - b[0]).abs());
         let number = usize::from((x_axis == walks_along) != is_along);
-        let index = (*plate.channels.get(number)?)?;
-        trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample = -*sample);
+        // Type 3 has two channels for each horizontal force.
+        let channels = match plate.kind {
+            2 | 4 => number..number + 1,
+            3 => 2 * number..2 * number + 2,
+            _ => continue,
+        };
+        for index in plate.channels.get(channels)?.iter().copied().flatten() {
+            trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample = -*sample);
+            mirrored += 1;
+        }
     }
-    Some(())
+    (mirrored > 0).then_some(())
 }
 
 /// The axis of the laboratory, 0 or 1, along which the markers travel most.
@@ -205,9 +214,12 @@ pub(super) fn moved(trial: &mut Trial, knees: &[&str], ankles: &[&str]) -> Optio
 
 /// Somebody else's standing trial with the same markers.
 pub(super) fn other_stands(trial: &mut Trial) -> Option<()> {
-    trial.standing.as_ref()?;
-    trial.standing = Some(trial.other.standing.clone()?);
-    Some(())
+    let (own, other) = (trial.standing.as_ref()?, trial.other.standing.clone()?);
+    let has = |point: &&Point| other.points.iter().any(|known| bare(&known.name) == bare(&point.name));
+    // Markers of another laboratory are refused with their names.
+    let are_same = 2 * own.points.iter().filter(has).count() > own.points.len();
+    trial.standing = Some(other);
+    are_same.then_some(())
 }
 
 /// Another person's walk beside this one's.

@@ -6,13 +6,13 @@ const LIST: &str = include_str!("../../../../crates/ambulo/tests/clean_recording
 
 /// A recording with plates, and the same person standing still.
 #[derive(Debug, Clone)]
-pub(super) struct Files {
-    pub(super) trial: PathBuf,
-    pub(super) standing: Option<PathBuf>,
+pub(crate) struct Files {
+    pub(crate) trial: PathBuf,
+    pub(crate) standing: Option<PathBuf>,
 }
 
 /// The recordings of each person, below the folder of all data.
-pub(super) fn people(data: &Path) -> Vec<Vec<Files>> {
+pub(crate) fn people(data: &Path) -> Vec<Vec<Files>> {
     let lines = LIST.lines().filter(|line| !line.starts_with(['#', '!']));
     lines.filter_map(|line| person(data, line)).collect()
 }

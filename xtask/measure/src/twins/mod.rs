@@ -10,7 +10,7 @@
 //! contains it. `--write` writes docs/measured/TWINS.md.
 
 mod changes;
-mod clean;
+pub(crate) mod clean;
 mod impossible;
 mod spoiled;
 mod taken;
@@ -56,7 +56,8 @@ fn page(data: &Path, chosen: &Chosen<'_>) -> Result<(String, Vec<&'static str>),
     let spoiled::Spoiled { table, clean, failures } = spoiled::judged(data, chosen)?;
     let mut page = format!(
         "# Altered copies of recordings\n\nThe recordings are those of `crates/ambulo/tests/clean_recordings.txt`, \
-         of which a test asks that they are good, feasible, and\nshow none of these faults. The command is `cargo xtask \
+         of which a test asks that they are good, feasible, and\nshow none of these faults. The command is `cargo \
+         xtask \
          twins`.\n\n## Faults of laboratories\n\nThe first recording of each person is spoiled in one way, in the \
          bytes of its files, and takes the road of any recording. `named`: a finding has\nthe code of the fault; \
          `clean`: how many of {clean} recordings as they are have such a finding.\n\n{}\n",

@@ -1,8 +1,8 @@
 //! Joint moments of a leg whose force plate was taken away, against those with the plate.
 //!
-//! Of the first clean recording of each person, each stance that lies wholly on one plate is computed twice: as recorded,
-//! and with that plate silent, so that its forces are predicted. The difference of a moment is its root mean square over
-//! the stance, per body mass [N.m/kg]; several stances of a person, and all stances, are pooled by squares.
+//! Of the first clean recording of each person, each stance that lies wholly on one plate is computed twice: as
+//! recorded, and with that plate silent, so that its forces are predicted. The difference of a moment is its root mean
+//! square over the stance, per body mass [N.m/kg]; several stances of a person, and all stances, are pooled by squares.
 
 use super::changes::silence;
 use super::clean::{Files, people};

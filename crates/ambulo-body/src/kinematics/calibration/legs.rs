@@ -10,7 +10,7 @@ use crate::model::marker_set::Landmark;
 use crate::model::{BySide, Side};
 use crate::numerics::elementary::sin;
 use crate::numerics::median;
-use crate::spatial::{Pose, Vec3};
+use crate::spatial::{Pose, Vec3, rotation_about};
 
 /// Default widths as shares of stature: those of the adult in the Plug-in-Gait sample of BTKData (102 and 70 mm at
 /// 1.76 m); a child of 1.45 m has 0.057 and 0.043.
@@ -116,7 +116,8 @@ pub(super) fn find(
     let mut legs = BySide { right: None, left: None };
     for side in Side::BOTH {
         let breadths = breadths(trajectories, frames, pelvis, person, side);
-        let finder = Finder { trajectories, frames, side };
+        let turn = person.measurements.joints.knees[side];
+        let finder = Finder { trajectories, frames, side, turn };
         let (Some(knee), Some(ankle)) = (
             finder.method((&KNEE, pelvis), breadths[0], person.measurements.radius(), assumptions),
             finder.method((&ANKLE, pelvis), breadths[1], person.measurements.radius(), assumptions),
@@ -155,8 +156,8 @@ fn breadths(
     [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
 }
 
-/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it, the thigh alone
-/// half of this.
+/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it, the thigh
+/// alone half of this.
 fn rough_stature(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
@@ -178,6 +179,8 @@ struct Finder<'a> {
     trajectories: &'a LandmarkTrajectories<'a>,
     frames: &'a [usize],
     side: Side,
+    /// Turn of the knee's axis about the long axis of the thigh [rad].
+    turn: Option<f64>,
 }
 
 impl Finder<'_> {
@@ -202,7 +205,8 @@ impl Finder<'_> {
                 return None;
             }
             assumptions.push(format!(
-                "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of heel \
+                "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of \
+                 heel \
                  and forefoot"
             ));
             return Some(Method::OfFoot(front));
@@ -272,13 +276,35 @@ impl Finder<'_> {
         }
     }
 
+    /// Centre and axis of a knee whose axis is turned about the line from knee to hip: a centre that was found along
+    /// the axis moves with it.
+    fn turned(
+        &self,
+        method: Method,
+        [hip, knee]: [Vec3; 2],
+        (axis, turn): (Vec3, f64),
+        frame: usize,
+    ) -> Option<(Vec3, Vec3)> {
+        let along = direction(hip - knee)?;
+        let axis = rotation_about(along, turn) * perpendicular(axis, along)?;
+        let (Method::Wand(lateral, _, half) | Method::Plane(lateral, half)) = method else { return Some((knee, axis)) };
+        let out = if self.side == Side::Right { 1.0 } else { -1.0 };
+        let lateral = self.trajectories.of(lateral, self.side, frame)?;
+        let centre = chord(hip, lateral, lateral + axis * out, half)?;
+        Some((centre, direction(lateral - centre)? * out))
+    }
+
     fn frame(&self, pelvis: &Pelvis, methods: [Method; 2], measured: usize) -> Option<LegFrame> {
         let frame = self.frames[measured];
         let (hip, across) = (pelvis.hip(measured, self.side)?, pelvis.right(measured)?);
-        let (knee, mut axis) = self.joint(methods[0], hip, across, frame)?;
-        let (ankle, mut ankle_axis) = self.joint(methods[1], knee, axis, frame)?;
+        let (mut knee, mut axis) = self.joint(methods[0], hip, across, frame)?;
+        let (mut ankle, mut ankle_axis) = self.joint(methods[1], knee, axis, frame)?;
         if matches!(methods[0], Method::Centre(_)) {
             axis = bending_axis(hip, knee, ankle).unwrap_or(across);
+        }
+        if let Some(turn) = self.turn {
+            (knee, axis) = self.turned(methods[0], [hip, knee], (axis, turn), frame)?;
+            (ankle, ankle_axis) = self.joint(methods[1], knee, axis, frame)?;
         }
         let femur = Pose { rotation: from_y_z(hip - knee, axis)?, translation: hip };
         let tibia = Pose { rotation: from_y_z(knee - ankle, femur.rotation.column(2).into())?, translation: knee };
@@ -289,8 +315,8 @@ impl Finder<'_> {
     }
 }
 
-/// Centre of an ankle [m] from a heel and a front marker, which have the landmarks of a usual foot of their distance. The
-/// knee shows which side of the line between them is up, whatever the angle of the ankle.
+/// Centre of an ankle [m] from a heel and a front marker, which have the landmarks of a usual foot of their distance.
+/// The knee shows which side of the line between them is up, whatever the angle of the ankle.
 fn ankle_of_foot([heel, front]: [Vec3; 2], landmark: Landmark, knee: Vec3) -> Option<Vec3> {
     let level = |place: Vec3| Vec3::new(place.x, place.y, 0.0);
     let (rear, ahead) = (level(Landmark::Heel.place()), level(landmark.place()));

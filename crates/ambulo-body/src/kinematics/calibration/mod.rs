@@ -52,7 +52,7 @@ pub use hip_centre::HipRegression;
 pub(in crate::kinematics) use legs::stature;
 #[doc(hidden)]
 pub use pelvis::hip_centres;
-pub use person::{BodyMeasurements, JointCentres, PersonMeasurements};
+pub use person::{BodyMeasurements, JointCentres, KneeAxis, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, HipCentres, MarkerPlacement, SegmentScale};
 pub use upright::assume_upright_trunk;

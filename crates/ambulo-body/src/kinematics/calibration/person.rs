@@ -4,6 +4,7 @@ use super::hip_centre::HipRegression;
 use crate::model::BySide;
 use crate::model::anthropometry::SegmentTable;
 use crate::spatial::Vec3;
+use serde::Deserialize;
 
 /// Data for calibrating a body: segment table, mass, stature and body measurements.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,10 +34,36 @@ pub struct BodyMeasurements {
     pub shoulder_offset: BySide<Option<f64>>,
     /// Length of the leg from the anterior spine to the medial malleolus.
     pub leg_length: BySide<Option<f64>>,
+    /// Between the anterior spines.
+    pub asis_width: Option<f64>,
     /// From the anterior spine back to the greater trochanter.
     pub asis_trochanter: BySide<Option<f64>>,
     /// Where centres and axes of joints come from.
     pub joints: JointCentres,
+}
+
+/// Where the axes of the knees of the built-in body come from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum KneeAxis {
+    /// The markers of the epicondyles or the wand.
+    #[default]
+    Markers,
+    /// The markers, turned about the long axis of the thigh so that varus follows flexion least in the motion.
+    LeastCrossTalk,
+}
+
+impl KneeAxis {
+    /// The choices with their names.
+    pub const ALL: [(&'static str, KneeAxis); 2] =
+        [("markers", KneeAxis::Markers), ("least-cross-talk", KneeAxis::LeastCrossTalk)];
+
+    /// The name.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        KneeAxis::ALL.iter().find(|(_, choice)| *choice == self).map_or("", |(word, _)| word)
+    }
 }
 
 /// Where centres and axes of joints come from, apart from the markers of the trial that calibrates the body.
@@ -47,6 +74,8 @@ pub struct JointCentres {
     /// Hip centres that a movement showed: forward, up and right from midway between the markers of the anterior
     /// spines, in axes through the spines [m].
     pub hips: BySide<Option<Vec3>>,
+    /// How the axes of the knees are found where no turn is given.
+    pub knee_axis: KneeAxis,
     /// Turns of the knee axes about the long axis of the thigh, from the axis that the markers show [rad].
     pub knees: BySide<Option<f64>>,
 }
@@ -68,6 +97,7 @@ impl BodyMeasurements {
             elbow_width: both("ElbowWidth"),
             shoulder_offset: both("ShoulderOffset"),
             leg_length: both("LegLength"),
+            asis_width: metres("InterAsisDistance"),
             asis_trochanter: both("AsisTrocanterDistance"),
             joints: JointCentres::default(),
         }

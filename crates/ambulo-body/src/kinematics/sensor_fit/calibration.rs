@@ -1,4 +1,4 @@
-//! How sensors sit on their bodies, and where forward is.
+//! Calibration of sensors: their orientation on their bodies, and the forward direction.
 
 use super::{PlacedSensor, SensorAxes, SensorError, SensorHeading, SensorTrial};
 use crate::findings::{Code, Findings};
@@ -204,9 +204,9 @@ fn facing(
     }
 }
 
-/// Mean over the legs of the largest tenth of the turns of the shanks relative to the thighs since the standing
-/// posture, as they would be if the thighs still stood, in the axes of the sensors' earth [rad]. Knees bend backwards,
-/// so it points to the left.
+/// Mean rotation of the shanks relative to the thighs since the standing posture, over the legs and the largest tenth
+/// of rotations. The rotations are as if the thighs still stood, in the axes of the sensors' earth [rad]. Knees bend
+/// backwards, so it points to the left.
 fn mean_bending(model: &Model, trial: &SensorTrial<'_>, standing: &[Standing]) -> Option<Vec3> {
     let of = |segment: PosedSegment| {
         standing.iter().find(|sensor| segment_of(&model.bodies()[sensor.body.index()].name) == Some(segment))

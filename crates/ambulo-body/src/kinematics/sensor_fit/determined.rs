@@ -1,4 +1,4 @@
-//! Which coordinates the sensors determine.
+//! Finds the coordinates that the sensors determine.
 //!
 //! Between a body with a sensor and the next one with a sensor towards the ground, three angles at most are determined,
 //! and only if their axes are independent in the default posture.

@@ -6,9 +6,9 @@
 //! | e₃ | distal segment | the joint's own axis of internal rotation, otherwise its long axis, up |
 //! | e₂ = e₃ × e₁ / ∣e₃ × e₁∣ | neither: it floats | forward |
 //!
-//! The long axis of the thigh goes from the knee to the hip, that of the shank from the ankle to the knee. The foot has
-//! that of the shank in the neutral posture. The axes come from the joints, so that the directions of a model's frames
-//! do not matter; a joint that does not flex has the axis of the body to the right.
+//! The long axis of the thigh goes from the knee to the hip, the long axis of the shank from the ankle to the knee. The
+//! foot has the long axis of the shank in the neutral posture. The axes come from the joints, so that the directions of
+//! a model's frames do not matter; a joint that does not flex has the axis of the body to the right.
 //!
 //! Source: Grood, Suntay 1983 (knee), Wu 2002 (hip and ankle; unverified).
 //! Not handled: legs that move in the sagittal plane only. Where their joints lie sideways is not known, so they have

@@ -1,4 +1,4 @@
-//! The clinical axes of the pelvis: those through its iliac spines.
+//! The clinical axes of the pelvis, through its iliac spines.
 //!
 //! The neutral posture of a model has an arbitrary pelvic tilt. Clinically, pelvic tilt is the angle between
 //! the ground and the line from the posterior to the anterior iliac spines, 10 to 15 degrees in standing, and hip

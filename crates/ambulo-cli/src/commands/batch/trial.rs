@@ -77,8 +77,10 @@ impl Work {
         let files = &trial.files;
         let words = self.options.apart();
         let of_words = words.iter().map(Path::new).filter(|path| path.is_file());
-        let named =
-            [&files.standing, &files.model, &files.grf, &files.loads].into_iter().flatten().map(PathBuf::as_path);
+        let named = [&files.standing, &files.functional, &files.model, &files.grf, &files.loads]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path);
         let shown = |path: &Path| {
             let path = path.strip_prefix(&self.root).unwrap_or(path);
             path.display().to_string().replace('\\', "/")

@@ -6,7 +6,7 @@
 use crate::args::Outputs;
 use ambulo::analysis::Adjustable;
 use ambulo::job::{Job, ModelChoice};
-use ambulo::kinematics::calibration::HipRegression;
+use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::{AddedMass, GroundSettings};
 use std::fmt::{Debug, Formatter, Result};
 use std::path::PathBuf;
@@ -94,6 +94,12 @@ impl Debug for Person<'_> {
             .field("max_gap", &job.settings.longest_gap_s);
         if job.settings.hip != HipRegression::default() {
             fields.field("hip", &job.settings.hip);
+        }
+        if job.settings.knee_axis != KneeAxis::default() {
+            fields.field("knee_axis", &job.settings.knee_axis);
+        }
+        if let Some(functional) = &job.functional {
+            fields.field("functional", functional);
         }
         fields.finish()
     }

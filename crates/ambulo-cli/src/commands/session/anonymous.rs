@@ -31,8 +31,9 @@ impl Anonymous {
             add_file(&mut replaced, &trial.files.recording, &label);
             replaced.push((trial.name.clone(), label));
             replaced.push((trial.person.clone(), "the person".to_owned()));
-            let others = [&trial.files.standing, &trial.files.model, &trial.files.grf, &trial.files.loads];
-            let words = ["the standing trial", "the model", "the table of forces", "the loads"];
+            let files = &trial.files;
+            let others = [&files.standing, &files.functional, &files.model, &files.grf, &files.loads];
+            let words = ["the standing trial", "the movement", "the model", "the table of forces", "the loads"];
             for (file, word) in others.into_iter().zip(words) {
                 file.iter().for_each(|file| add_file(&mut replaced, file, word));
             }

@@ -206,7 +206,10 @@ fn nothing_counts(root: &Path, session: &Session) -> String {
 fn inputs(args: &SessionArgs, plan: &Plan) -> Vec<PathBuf> {
     let of_trial = |trial: &PlannedTrial| {
         let files = trial.files.clone();
-        [files.standing, files.model, files.grf, files.loads].into_iter().flatten().chain([files.recording])
+        [files.standing, files.functional, files.model, files.grf, files.loads]
+            .into_iter()
+            .flatten()
+            .chain([files.recording])
     };
     let others = args.norm.iter().filter(|path| path.is_file()).cloned();
     let mut all: Vec<_> =

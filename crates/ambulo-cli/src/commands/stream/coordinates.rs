@@ -1,4 +1,4 @@
-//! Frames of coordinates: which value belongs to which coordinate, and in which unit.
+//! Frames of coordinates: the coordinate and the unit of each value.
 
 use super::formats::{AngleUnit, Message};
 use ambulo::model::{CoordinateKind, Model};

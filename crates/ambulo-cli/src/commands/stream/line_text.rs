@@ -1,4 +1,4 @@
-//! The text of a line, whatever program wrote it: byte order marks, UTF-16, numbers that are not.
+//! The text of a line from any program: byte order marks, UTF-16, words for not-a-number.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! Where messages come from and answers go.
+//! Inputs of messages and outputs of answers: standard streams, TCP and UDP.
 
 use super::line_text::is_http;
 use super::patient::{Patient, is_over};

@@ -1,4 +1,4 @@
-//! Lists what the page cannot show, and why.
+//! Lists parts that the page cannot show, with the reason.
 
 use super::curves::over_time;
 use super::results::Results;

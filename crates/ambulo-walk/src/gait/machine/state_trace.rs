@@ -1,4 +1,4 @@
-//! Records which states the machines of a walk were in, and when.
+//! Records the states of the machines of a walk over time.
 
 use super::running_machine::RunningMachine;
 

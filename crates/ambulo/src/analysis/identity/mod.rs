@@ -48,7 +48,6 @@ pub(super) fn report_standing_trial(
 ) {
     const BY_FAR: f64 = 2.0;
     let share = limb_difference(&limb_lengths(moving, set), &limb_lengths(standing, set)).unwrap_or(0.0);
-    eprintln!("DBG limbs {share:.4} moved {moved:?} {:?} {:?}", limb_lengths(moving, set), limb_lengths(standing, set));
     let are_few = (1..moved::ANOTHER_PERSON).contains(&moved.len());
     if share > BY_FAR * OTHER_LIMBS || share > OTHER_LIMBS && !are_few {
         limbs::report_other_limbs(moving, standing, set, contradictions, findings);

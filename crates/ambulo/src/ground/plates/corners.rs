@@ -2,10 +2,11 @@
 //!
 //! FORCE_PLATFORM:CORNERS states the axes of a plate by the order of its corners. Of the eight orders that keep
 //! neighbours ([`CORNER_ORDERS`]) the true one puts the centre of pressure under the foot that stands on the plate, at
-//! a distance d from the line from heel to toe, while the others turn or reverse its path about the middle of the
-//! plate. Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre
-//! in every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the agreement
-//! r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the correlation s.
+//! a distance d from the line from heel to toe. The others turn or reverse its path about the middle of the plate.
+//! Where the foot crosses the middle this is not enough; but the horizontal force leads towards the mass centre in
+//! every step ([`LeverRule`]; the middle of the pelvis stands for the mass centre), along the foot with the agreement
+//! r₁ and across it with r₂, and the centre of pressure moves along the foot as the pelvis does, with the correlation
+//! s.
 //!
 //! ```text
 //! cost = (d / 30 mm)² + ((1 - r₁) / 0.3)² + ((1 - r₂) / 0.5)²
@@ -111,7 +112,7 @@ struct Loaded {
     plate: usize,
     /// Fits, one per order of the corners.
     fits: Vec<Fit>,
-    /// Whether its force was found to be that of the foot on the plate, so that all signs were reversed.
+    /// Whether the file has the force of the foot on the plate, so that all signs were reversed.
     is_reversed: bool,
 }
 
@@ -170,20 +171,6 @@ fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let nearer_m = (away_m(0) - away_m(best)) / plates.len() as f64;
     let is_moved = nearer_m > NEARER_M || runs_back(0) && runs_forth(best) || turns_over(best) && nearer_m > -SAME_M;
     let fails = cost(0) > cost(best) + FAILS && is_moved;
-    for p in plates {
-        for (k, f) in p.fits.iter().enumerate() {
-            eprintln!(
-                "DBG corners plate {} order {k} d {:.1} r {:.2} {:.2} path {:.2} cost {:.1} rev {}",
-                p.plate + 1,
-                1e3 * f.distance_m(),
-                f.lever.agreement(0),
-                f.lever.agreement(1),
-                f.path.correlation(),
-                f.cost(),
-                p.is_reversed
-            );
-        }
-    }
     let is_distinct = right.get(1).is_none_or(|next| cost(*next) > cost(best) + DISTINCT);
     fails.then_some((best, is_distinct))
 }

@@ -1,4 +1,4 @@
-//! Combines the events from force plates with those from motion.
+//! Combines the events from force plates with events from motion.
 
 use super::{ContactQuality, FeetOnPlates, PlateContact};
 use crate::ground::foot_motion::FootMotion;

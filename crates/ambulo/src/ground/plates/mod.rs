@@ -1,4 +1,4 @@
-//! Assigns force plates to feet, and finds out whether a plate measured all of a foot's load.
+//! Assigns force plates to feet, and determines whether a plate measured all of a foot's load.
 //!
 //! A **contact** is a time during which a plate carries more than 20 N. It belongs to the foot whose line from heel to
 //! toe is nearest to the centre of pressure, averaged over the load, within 0.2 m (the limit in the documentation of

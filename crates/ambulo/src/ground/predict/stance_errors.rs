@@ -1,4 +1,4 @@
-//! Repeatable errors of the estimate over a stance, learned from force plates and taken off.
+//! Repeatable errors of the estimate over a stance, learned from force plates and subtracted.
 //!
 //! The estimate of a stance differs from the force plates in part by chance, in part in the same way in every stance:
 //! the prior has the strike of other subjects, the body's segments differ slightly from the person's. What repeats is a

@@ -5,10 +5,9 @@
 //! ż is the upward velocity of the mass centre at the strike, climb the rate at which the floor rises from the previous
 //! stance to this one, L the length from hip to ground. x is about 0 in a usual strike and at most 0.85. The faster the
 //! descent, the later is the vertical force than the motion of the skin shows, and the prior of usual strikes: the
-//! errors of a stance are a mean curve and x times a second curve ([`super::stance_errors`]). Of 27 quantities of the
-//! motion of a stance (walking speed, duration of the stance, pitch of the foot and its rate, speed of the heel, lean
-//! of the shank, flexion of the knee and its rate, force of the whole body and others) it explained most of the errors
-//! of subjects and laboratories left out.
+//! errors of a stance are a mean curve and x times a second curve ([`super::stance_errors`]). It explained most of the
+//! errors of subjects and laboratories left out, among 27 quantities of the motion of a stance. The others include
+//! walking speed, pitch of the foot, speed of the heel, lean of the shank and flexion of the knee.
 
 use crate::ground::footfalls::Footfalls;
 use crate::kinematics::{Trajectory, each_body_motion};

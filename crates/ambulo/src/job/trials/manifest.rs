@@ -157,6 +157,7 @@ fn planned(line: Line, root: &Path) -> PlannedTrial {
             recording: root.join(&line.file),
             trial: line.trial,
             standing: path(line.standing),
+            functional: None,
             model: path(line.model),
             grf: path(line.grf),
             loads: path(line.loads),

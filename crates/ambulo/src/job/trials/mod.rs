@@ -22,6 +22,8 @@ pub struct TrialFiles {
     pub trial: Option<String>,
     /// The same person standing still.
     pub standing: Option<PathBuf>,
+    /// The same person in a movement of hips and knees that shows the joints.
+    pub functional: Option<PathBuf>,
     /// The model.
     pub model: Option<PathBuf>,
     /// The table of ground forces.
@@ -37,12 +39,13 @@ impl TrialFiles {
     /// the trial counts before the size of all trials.
     #[must_use]
     pub fn job(&self, of_all: &Job) -> Job {
-        let TrialFiles { recording, trial, standing, model, grf, loads, size } = self.clone();
+        let TrialFiles { recording, trial, standing, functional, model, grf, loads, size } = self.clone();
         let given = of_all.clone();
         Job {
             recording: Some(recording),
             trial: given.trial.or(trial),
             standing: given.standing.or(standing),
+            functional: given.functional.or(functional),
             model: given.model.or(model.map(ModelChoice::from)),
             size: StatedSize {
                 mass_kg: size.mass_kg.or(given.size.mass_kg),

@@ -37,6 +37,9 @@ const RECORDINGS: [&str; 10] =
     ["ground", "reaction", "marker", "markers", "motion", "capture", "mocap", "ik", "kinematics", "coordinates"];
 /// Words in the names of standing trials, of which the first one with such a name is preferred.
 const STANDING: [&str; 4] = ["static", "stand", "calib", "pose"];
+/// Parts of the names of movements that show the joints of a person, without separators.
+const FUNCTIONAL: [&str; 7] =
+    ["functionalcal", "functionalhip", "functionalknee", "functionaljoint", "stararc", "hipcal", "kneecal"];
 
 /// A trial with the files that belong to it.
 #[derive(Debug, Clone)]
@@ -372,6 +375,12 @@ fn words(file: &FoundFile) -> impl Iterator<Item = String> {
     words.into_iter()
 }
 
+/// Whether a recording is a movement that shows the joints, and no trial: its name says so.
+fn shows_joints(file: &FoundFile, content: &Content) -> bool {
+    let stem = file.stem().replace(['-', '_', ' '], "");
+    matches!(content.kind, Kind::Motion | Kind::Plates) && FUNCTIONAL.iter().any(|part| stem.contains(part))
+}
+
 /// The words that identify the trial.
 fn own_words(file: &FoundFile) -> BTreeSet<String> {
     words(file).filter(|word| !FORCES.contains(&word.as_str()) && !RECORDINGS.contains(&word.as_str())).collect()
@@ -387,6 +396,8 @@ struct Folders<'a> {
     models: BTreeMap<&'a str, Vec<&'a FoundFile>>,
     /// The standing trials of each folder, those with a usual name first.
     standing: BTreeMap<&'a str, Vec<(&'a FoundFile, &'a RecordedPerson)>>,
+    /// The first movement of each folder that shows the joints.
+    functional: BTreeMap<&'a str, &'a FoundFile>,
 }
 
 impl<'a> Folders<'a> {
@@ -398,6 +409,7 @@ impl<'a> Folders<'a> {
             forces: BTreeMap::new(),
             models: BTreeMap::new(),
             standing: BTreeMap::new(),
+            functional: BTreeMap::new(),
         };
         for file in listing.found {
             if is_force_table(file) {
@@ -411,6 +423,11 @@ impl<'a> Folders<'a> {
             listing.recordings.iter().zip(contents).filter(|(_, content)| content.kind == Kind::Still)
         {
             folders.standing.entry(&file.folder).or_default().push((file, &content.person));
+        }
+        for ((file, _), _) in
+            listing.recordings.iter().zip(contents).filter(|(read, content)| shows_joints(read.0, content))
+        {
+            folders.functional.entry(&file.folder).or_insert(file);
         }
         folders.standing.values_mut().for_each(|still| still.sort_by_key(|(file, _)| !is_named(file)));
         folders
@@ -426,6 +443,9 @@ impl<'a> Folders<'a> {
     ) -> Result<PlannedTrial, String> {
         if let Some(reason) = &stated.excluded {
             return Err(excluded(reason));
+        }
+        if shows_joints(file, content) {
+            return Err("the person moves hips and knees: the movement that shows the joints of this folder".to_owned());
         }
         let path = |named: &String| self.root_path.join(named);
         let Content { kind, person } = content;
@@ -445,7 +465,9 @@ impl<'a> Folders<'a> {
             return Err("the same trial as another recording with this name".to_owned());
         }
         let model = stated.model.as_ref().map(path).or_else(|| self.model_of(file));
-        let standing = self.standing_of(file, person).filter(|_| model.is_none() && is_of_markers(file));
+        let is_built_in = model.is_none() && is_of_markers(file);
+        let standing = self.standing_of(file, person).filter(|_| is_built_in);
+        let functional = self.functional.get(file.folder.as_str()).filter(|_| is_built_in);
         Ok(PlannedTrial {
             name: file.name.clone(),
             person: stated.person.clone().unwrap_or_else(|| self.person(file)),
@@ -456,6 +478,7 @@ impl<'a> Folders<'a> {
                 recording: file.path.clone(),
                 trial: None,
                 standing: stated.standing.as_ref().map(path).or_else(|| standing.map(|standing| standing.path.clone())),
+                functional: functional.map(|movement| movement.path.clone()),
                 model,
                 grf: stated.forces.as_ref().map(path).or(grf),
                 loads: stated.loads.as_ref().map(path),

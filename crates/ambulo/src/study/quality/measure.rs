@@ -82,7 +82,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 28] = [
+    pub const ALL: [Measure; 29] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -167,10 +167,7 @@ impl Measure {
             Measure::GroundForces => "share of the motion with complete ground forces, measured or predicted",
             Measure::MeasuredForces => "share of the motion in which measured forces carry the body",
             Measure::UncheckedForces => "1 if forces were measured, but at no time those of all loaded feet",
-            Measure::UnmeasuredLeg => {
-                "1 if a leg stood on force plates and none of its stances was measured, while those of the other leg \
-                 were"
-            }
+            Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
             Measure::ForceDirections => {
@@ -190,9 +187,7 @@ impl Measure {
                 "difference of the body mass from that on the force plates, less the error of weighing, as a share"
             }
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
-            Measure::Sliding => {
-                "speed along the ground of soles that carry at least half the body weight, lower quartile"
-            }
+            Measure::Sliding => "speed along the ground of soles that carry half the body weight, lower quartile",
             Measure::CenterOfPressure => {
                 "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
                  one"
@@ -203,8 +198,7 @@ impl Measure {
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::FrozenPoints => {
-                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
-                 piece"
+                "share of the time in which keypoints of a moving leg keep their distances like those of a rigid body"
             }
             Measure::AxialRotation => "standard deviation of axial rotation of the thighs, from errors of keypoints",
             Measure::DerivedPlace => {

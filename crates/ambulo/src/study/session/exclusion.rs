@@ -1,4 +1,4 @@
-//! Which cycles belong to no mean, and why.
+//! Excludes cycles from the means, with the reason.
 //!
 //! | reason | rule |
 //! |---|---|

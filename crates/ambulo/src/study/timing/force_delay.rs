@@ -1,8 +1,8 @@
 //! The delay between force plates and motion.
 //!
 //! The measured forces are shifted by s and compared with the forces that the motion requires, over the frames in which
-//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where forces and motion
-//! are synchronous:
+//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are
+//! smallest where forces and motion are synchronous:
 //!
 //!   r = argmin F²(s)/F²(0) + M²(s)/M²(0),   |s| ≤ 0.15 s
 //!
@@ -14,9 +14,10 @@
 //! Both vary: r by 6 ms and e by 8 ms between recordings of one laboratory (74 walks of 8 laboratories whose plates
 //! were synchronised by their makers), and both depend on the body, which has rigid segments: soft parts follow the
 //! bones late, so forces seem late by r₀. Together they tell 10 ms. A delay is found where d is longer than 10 ms and
-//! one frame and the residuals fall by a tenth at their minimum, neither of them rising. Noise, a wrong body and
-//! misplaced plates leave residuals that do not depend on s, fall in one of the two only, or are contradicted by the
-//! events.
+//! one frame and the residuals fall by a tenth at their minimum, neither of them rising; by a twentieth if both
+//! witnesses tell a delay of more than two of their standard deviations by themselves, because both do not err so by
+//! chance. Noise, a wrong body and misplaced plates leave residuals that do not depend on s, fall in one of the two
+//! only, or are contradicted by the events.
 //!
 //! | symbol | unit   | meaning                                                      |
 //! |--------|--------|--------------------------------------------------------------|
@@ -44,6 +45,10 @@ const FARTHEST_S: f64 = 0.15;
 const STEP_S: f64 = 0.005;
 /// Residual force and moment fall to less than this share, geometric mean.
 const FALLS_TO: f64 = 0.9;
+/// Both witnesses are certain beyond this [s], two standard deviations of the events. Residual force and moment then
+/// fall to less than the first share, and neither rises above the second.
+const CERTAIN_S: f64 = 0.016;
+const CERTAIN_FALLS_TO: (f64, f64) = (0.95, 1.1);
 /// Shorter delays are the errors of synchronised laboratories and of this method [s].
 const LEAST_S: f64 = 0.010;
 /// Frames of a shorter time do not show a delay [s]: less than a single support.
@@ -111,11 +116,10 @@ impl ForceDelay {
     fn agreed(self, events_s: Option<f64>, least_s: f64) -> Option<ForceDelay> {
         let by_residual_s = self.delay_s - SOFT_PARTS_S;
         let [force, moment] = [0, 1].map(|k| self.shifted[k] / self.recorded[k]);
-        eprintln!(
-            "DBG delay residual {:.4} events {events_s:?} force {force:.3} moment {moment:.3} least {least_s}",
-            by_residual_s
-        );
-        let falls = force * moment <= FALLS_TO * FALLS_TO && force.max(moment) <= 1.0;
+        let both =
+            |events_s: f64| events_s * by_residual_s > 0.0 && events_s.abs().min(by_residual_s.abs()) > CERTAIN_S;
+        let (falls_to, most) = if events_s.is_some_and(both) { CERTAIN_FALLS_TO } else { (FALLS_TO, 1.0) };
+        let falls = force * moment <= falls_to * falls_to && force.max(moment) <= most;
         let (delay_s, least_s) = match events_s {
             Some(events_s) if (events_s - by_residual_s).abs() > AGREE_S => return None,
             Some(events_s) => (0.5 * (by_residual_s + events_s), least_s),
