@@ -156,8 +156,8 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         }
         StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(NoBody::Markers { .. })) => {
             Some(
-                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
-             file, then give it with `--markers mine.toml`",
+                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct \
+                 the file, then give it with `--markers mine.toml`",
             )
         }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),
