@@ -113,7 +113,6 @@ mod marker_recording;
 mod marker_sets;
 mod marker_smoothing;
 mod marker_tasks;
-mod moving_parts;
 mod mujoco_parity;
 mod opensim_joints;
 mod opensim_parity;

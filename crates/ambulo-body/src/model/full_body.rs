@@ -16,18 +16,11 @@
 //! | `humerus_s`       | `arm_flex_s`, `arm_add_s`, `arm_rot_s` (+ inwards)                               | z, x, y           |
 //! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
 //!
-//! Where markers show them (`MovingParts`), head and hands are bodies of their own, zero as they are in standing:
-//!
-//! | body              | coordinates                                                                    | axes (right side) |
-//! |-------------------|--------------------------------------------------------------------------------|-------------------|
-//! | `head`            | `neck_extension`, `neck_bending`, `neck_rotation`                               | z, x, y           |
-//! | `hand_s`          | `wrist_flex_s`, `wrist_dev_s` (+ towards the thumb)                            | x, z              |
-//!
 //! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The
-//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. With tables
-//! that do not split the trunk there is no lumbar joint; the root is `torso`.
+//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist
+//! are rigid with the forearm. With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
 
-use super::anthropometry::{Build, BuildError, Human, MovingParts};
+use super::anthropometry::{Build, BuildError, Human};
 use super::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
     JointSpeeds, Marker, Model, Side,
@@ -44,10 +37,9 @@ pub const STANDING_TILT: f64 = 11.7 * std::f64::consts::PI / 180.0;
 
 /// Ranges [deg]. Hip abduction 45 to 50, adduction 20 to 30, rotation inwards 45, outwards 45 to 60; lumbar bending 35,
 /// rotation of the trunk 30 to 45; foot inversion 35, eversion 20; shoulder adduction 50, abduction 180, rotation 90
-/// both ways; pronation and supination 90; neck bending 45, rotation 80; wrist flexion 80, extension 70 (90 here,
-/// because zero is the hand in standing): tables of normal ranges of motion such as the Merck manual's; the larger
+/// both ways; pronation and supination 90: tables of normal ranges of motion such as the Merck manual's; the larger
 /// value is used (unverified). Rotations of the trunk are allowed to both sides.
-const RANGES: [(&str, [f64; 2]); 11] = [
+const RANGES: [(&str, [f64; 2]); 8] = [
     ("hip_adduction", [-50.0, 30.0]),
     ("hip_rotation", [-60.0, 45.0]),
     ("lumbar_bending", [-35.0, 35.0]),
@@ -56,9 +48,6 @@ const RANGES: [(&str, [f64; 2]); 11] = [
     ("arm_add", [-180.0, 50.0]),
     ("arm_rot", [-90.0, 90.0]),
     ("pro_sup", [-90.0, 90.0]),
-    ("neck_bending", [-45.0, 45.0]),
-    ("neck_rotation", [-80.0, 80.0]),
-    ("wrist_flex", [-90.0, 90.0]),
 ];
 
 /// Builds the full body with spatial joints for a mass and a stature. The toes always have a joint.
@@ -66,12 +55,7 @@ const RANGES: [(&str, [f64; 2]); 11] = [
 /// # Errors
 /// An implausible mass, stature or combination of both.
 pub fn full_body(build: &Build) -> Result<Human, BuildError> {
-    full_body_with(build, &MovingParts::default())
-}
-
-/// The full body with joints of neck and wrists.
-pub(crate) fn full_body_with(build: &Build, parts: &MovingParts) -> Result<Human, BuildError> {
-    let planar = Build { toe_joint: true, ..*build }.human_with(parts)?;
+    let planar = Build { toe_joint: true, ..*build }.human()?;
     let mut builder = FullBodyBuilder { planar: &planar.model, bodies: Vec::new(), coordinates: Vec::new() };
     for body in planar.model.bodies() {
         builder.take(body);
@@ -122,8 +106,6 @@ impl FullBodyBuilder<'_> {
             "humerus" => vec![("arm_flex", z), ("arm_add", x), ("arm_rot", y)],
             "forearm" => vec![("elbow_flex", z), ("pro_sup", y)],
             "toes" => vec![("mtp_angle", z)],
-            "head" => vec![("neck_extension", z), ("neck_bending", x), ("neck_rotation", y)],
-            "hand" => vec![("wrist_flex", x), ("wrist_dev", z)],
             _ => vec![("knee_angle", z)],
         };
         let rotations = rotations.into_iter().map(|(name, axis)| self.rotation(name, side, axis)).collect();

@@ -17,11 +17,6 @@ pub struct SegmentShape {
 }
 
 impl SegmentShape {
-    /// A segment of the size in the table whose joint is at a place in its parent [m].
-    pub(crate) fn at(place: Vec3) -> SegmentShape {
-        SegmentShape { factor: 1.0, parent_from_joint: Pose::at(place), child_from_joint: Pose::IDENTITY }
-    }
-
     /// The unchanged shape of every segment.
     #[must_use]
     pub fn of(human: &Human) -> Vec<SegmentShape> {

@@ -181,7 +181,7 @@ impl Search<'_> {
         let on = |(body, segment): (BodyId, Segment)| {
             self.on(body, name, self.weight(segment, body)).filter(|placed| self.is_near(placed, segment))
         };
-        let mut segments: Vec<Placed> = of_sets.chain(moving_parts(model)).filter_map(on).collect();
+        let mut segments: Vec<Placed> = of_sets.filter_map(on).collect();
         segments.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
         let least_m = segments.first()?.distance_m;
         if let Some((body, weight)) = own
@@ -255,11 +255,6 @@ fn trunk_markers(body: MarkedBody<'_>) -> usize {
     let trunk = Segment::Torso.body(body.model, None);
     let is_reliable = |marker: &&Marker| body.weights.get(&marker.name).is_none_or(|weight| *weight >= RELIABLE);
     body.model.markers().iter().filter(|marker| marker.body == trunk).filter(is_reliable).count()
-}
-
-/// Head and hands, if the body has joints for them: their markers are as loose as those of a forearm.
-fn moving_parts(model: &Model) -> impl Iterator<Item = (BodyId, Segment)> {
-    ["head", "hand_r", "hand_l"].into_iter().filter_map(move |name| Some((model.body(name)?, Segment::Forearm)))
 }
 
 /// Whether a marker is on the head, as far as the head is a part of the trunk.

@@ -21,10 +21,9 @@ const FIXED: f64 = 1e-9;
 
 /// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry;
 /// `{}` is Right or Left.
-const NAMES: [(&str, &str); 7] = [
+const NAMES: [(&str, &str); 6] = [
     ("pelvis", "Hips"),
     ("torso", "Spine"),
-    ("head", "Head"),
     ("humerus", "{}Arm"),
     ("ulna", "{}ForeArm"),
     ("forearm", "{}ForeArm"),

@@ -31,6 +31,9 @@ impl Subject {
             return self;
         }
         let Some(named) = named(moving, set) else { return self };
+        if self.is_shown_by(moving, &named) {
+            return self;
+        }
         let body = MarkedBody { model: &self.model, weights: &self.weights };
         let found = technical_markers(body, moving, standing, &named);
         if found.is_empty() {
@@ -43,6 +46,23 @@ impl Subject {
         weights.extend(found.iter().map(|(marker, weight)| (marker.name.clone(), *weight)));
         Subject { model, weights, ..self }
     }
+
+    /// Whether markers with known names show the body: most of those that were recorded, and every thigh and shank.
+    /// Further markers would then change little, and the same person would have another body in a trial without them.
+    fn is_shown_by(&self, moving: &MarkerRecording, named: &[NamedMarker]) -> bool {
+        let recorded = recorded(moving, named);
+        let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
+        let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
+        followed.len() as f64 >= LEAST_SHARE * recorded.len() as f64 && hardly_shown(self, &followed).next().is_none()
+    }
+}
+
+/// Names of the markers that are seen in any frame, without points that a program computed from others.
+fn recorded<'m>(moving: &'m MarkerRecording, named: &[NamedMarker]) -> Vec<&'m str> {
+    let computed = computed_points(moving, named);
+    let is_seen = |path: &&MarkerPath| (0..path.positions.len()).any(|frame| path.is_seen(frame));
+    let seen = moving.markers.iter().filter(is_seen).map(|marker| marker.name.as_str());
+    seen.filter(|name| !computed.contains(name)).collect()
 }
 
 fn report_found(subject: &Subject, found: &[(Marker, f64)], findings: &mut Findings) {
@@ -75,10 +95,7 @@ pub(super) fn report_use(
     findings: &mut Findings,
 ) -> usize {
     let Some(named) = named(moving, set) else { return moving.markers.len() };
-    let computed = computed_points(moving, &named);
-    let is_seen = |path: &&MarkerPath| (0..path.positions.len()).any(|frame| path.is_seen(frame));
-    let seen = moving.markers.iter().filter(is_seen).map(|marker| marker.name.as_str());
-    let recorded: Vec<&str> = seen.filter(|name| !computed.contains(name)).collect();
+    let recorded = recorded(moving, &named);
     let followed: Vec<&str> =
         fit.errors.iter().filter(|error| error.rms_m.is_finite()).map(|error| error.name.as_str()).collect();
     if (followed.len() as f64) < LEAST_SHARE * recorded.len() as f64 {

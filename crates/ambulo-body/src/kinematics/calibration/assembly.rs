@@ -4,17 +4,19 @@ use super::axes::{about_x, in_frame, median_point};
 use super::feet::Feet;
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::Legs;
-use super::moving_parts::{ENOUGH_ON_TRUNK, MovingPart, is_on_trunk, part_of};
 use super::pelvis::Pelvis;
 use super::report::{CalibrationReport, MarkerPlacement, SegmentScale};
 use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
-use crate::model::anthropometry::{Dimensions, Human, MovingParts};
+use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::marker_set::{Landmark, NamedMarker, Segment};
 use crate::model::subject_shape::{SegmentShape, SubjectShape, reshaped};
 use crate::model::{BySide, Marker, Side};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
+
+/// Number of markers on the trunk that makes those of the head unnecessary.
+const ENOUGH_ON_TRUNK: usize = 3;
 
 /// Smallest weight of a marker that determines the motion of the trunk.
 const RELIABLE: f64 = 0.05;
@@ -27,8 +29,6 @@ pub(super) struct Parts<'a> {
     pub(super) legs: &'a Legs,
     pub(super) feet: &'a Feet,
     pub(super) trunk: &'a Trunk,
-    /// Head and hands with joints of their own.
-    pub(super) moving: MovingParts,
 }
 
 pub(super) fn assemble(
@@ -95,9 +95,9 @@ fn chosen<'a>(
     parts: &Parts<'_>,
     unused: &mut Vec<&'a str>,
 ) -> Vec<(&'a NamedMarker, usize)> {
-    let on_trunk = trajectories.markers.iter().filter(|(m, _)| is_on_trunk(m)).count();
-    let is_placed = parts.trunk.poses.iter().any(Option::is_some);
-    let drops_head = on_trunk >= ENOUGH_ON_TRUNK && is_placed && !parts.moving.head;
+    let is_trunk = |m: &NamedMarker| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark);
+    let on_trunk = trajectories.markers.iter().filter(|(m, _)| is_trunk(m)).count();
+    let drops_head = on_trunk >= ENOUGH_ON_TRUNK && parts.trunk.poses.iter().any(Option::is_some);
     let mut list = Vec::new();
     for &(marker, number) in &trajectories.markers {
         if drops_head && is_head(marker.definition.landmark) {
@@ -136,8 +136,7 @@ fn placed(
     number: usize,
 ) -> Option<(Marker, MarkerPlacement)> {
     let (segment, side) = (named.definition.segment, named.definition.side);
-    let (model, part) = (&generic.model, part_of(&parts.moving, named));
-    let body = part.map_or_else(|| segment.body(model, side), |part| model.body(&part.body_name()))?;
+    let body = segment.body(&generic.model, side)?;
     let ball = side.map_or(Vec3::zeros(), |side| ball(&generic.dimensions, parts.feet, side));
     let seen = |(measured, &frame): (usize, &usize)| {
         Some(in_frame(&pose(parts, segment, side, ball, measured)?, trajectories.place(number, frame)?))
@@ -148,33 +147,9 @@ fn placed(
     if named.definition.landmark == Some(Landmark::Acromion) {
         location.y -= parts.trunk.lift;
     }
-    if let Some((joint, _)) = part.and_then(|part| joint_of_part(&generic.dimensions, parts, part)) {
-        location -= joint;
-    }
     let body_name = generic.model.bodies()[body.index()].name.clone();
     let place = MarkerPlacement { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
     Some((Marker { name: named.name.clone(), body: Some(body), location, fixed: false }, place))
-}
-
-/// The joint of a head in the trunk, or of a hand in the forearm [m], and the size of the part over that in the table.
-fn joint_of_part(d: &Dimensions, parts: &Parts<'_>, part: MovingPart) -> Option<(Vec3, f64)> {
-    match part {
-        MovingPart::Head => Some((Vec3::y() * (d.neck() * parts.trunk.factor), parts.trunk.factor)),
-        MovingPart::Hand(side) => {
-            let arm = parts.trunk.arms[side].as_ref()?;
-            Some((Vec3::y() * -arm.lower, arm.lower / d.forearm))
-        }
-    }
-}
-
-/// Hangs head and hands on their joints.
-fn hang_parts(generic: &Human, parts: &Parts<'_>, segments: &mut [SegmentShape]) {
-    for part in MovingPart::ALL {
-        let Some(body) = generic.model.body(&part.body_name()) else { continue };
-        if let Some((place, factor)) = joint_of_part(&generic.dimensions, parts, part) {
-            segments[body.index()] = SegmentShape { factor, ..SegmentShape::at(place) };
-        }
-    }
 }
 
 /// Position of the ball of a foot relative to its ankle [m].
@@ -191,7 +166,11 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
             segments[body.index()] = shape;
         }
     };
-    let plain = |factor: f64, place: Vec3| SegmentShape { factor, ..SegmentShape::at(place) };
+    let plain = |factor: f64, place: Vec3| SegmentShape {
+        factor,
+        parent_from_joint: Pose::at(place),
+        child_from_joint: Pose::IDENTITY,
+    };
     let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
     set(Segment::Torso, None, plain(parts.trunk.factor, lumbar));
     for side in Side::BOTH {
@@ -216,7 +195,6 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
         set(Segment::Humerus, Some(side), plain(upper / d.upper_arm, parts.trunk.shoulders[side]));
         set(Segment::Forearm, Some(side), plain(lower / d.forearm, Vec3::y() * -upper));
     }
-    hang_parts(generic, parts, &mut segments);
     let mut locked = Vec::new();
     if parts.pelvis.is_line {
         assumptions.push(
@@ -266,7 +244,7 @@ fn scales(generic: &Human, parts: &Parts<'_>, shape: &SubjectShape) -> Vec<Segme
         let side = Side::of_name(name);
         let leg = || side.is_some_and(|side| parts.legs[side].is_some());
         match name.split('_').next().unwrap_or_default() {
-            "pelvis" | "head" => false,
+            "pelvis" => false,
             "torso" => parts.trunk.poses.iter().any(Option::is_some),
             "femur" | "tibia" => leg(),
             "calcn" | "toes" => side.is_some_and(|side| parts.feet[side].poses.iter().any(Option::is_some)),

@@ -14,7 +14,6 @@
 //! | thigh, shank | y from the lower to the upper joint, z along the part of the knee axis that is perpendicular to y |
 //! | foot | upright while flat on the ground; x from heel to toe |
 //! | trunk | usual positions of the landmarks fitted to the visible ones, then y from the lumbar joint to the shoulders |
-//! | head, hands | a joint at the base of the neck and at the wrist, if enough markers show them (`moving_parts`); zero in standing |
 //! | arm | elbow half its width inside the lateral marker, along the normal of the plane of shoulder, elbow and wrist |
 //!
 //! The hinge of the knee rotates about z of the thigh; the other rotation of the shank (varus) is a constant part of
@@ -27,7 +26,7 @@
 //! Sources: hip centres: `hip_centre`;
 //! Kadaba 1990 and Davis 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing
 //! pelvis: see [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
-//! Not handled: shoulder girdles that move; braces.
+//! Not handled: wrists and heads that move; braces.
 //! Pinned by: tests/calibration.rs
 
 mod assembly;
@@ -37,7 +36,6 @@ mod feet;
 mod hip_centre;
 mod landmark_trajectories;
 pub(crate) mod legs;
-mod moving_parts;
 mod pelvis;
 mod person;
 mod reference;
@@ -58,8 +56,8 @@ pub use report::{CalibrationReport, HipCentres, MarkerPlacement, SegmentScale};
 pub use upright::assume_upright_trunk;
 
 use crate::findings::{Code, Findings};
-use crate::model::anthropometry::{Build, Human, MovingParts};
-use crate::model::full_body::{full_body, full_body_with};
+use crate::model::anthropometry::{Build, Human};
+use crate::model::full_body::full_body;
 use crate::model::marker_set::RecognisedMarkers;
 use crate::motion::MarkerRecording;
 use landmark_trajectories::LandmarkTrajectories;
@@ -137,9 +135,7 @@ pub fn calibrate(
     let observed = feet::Observed { trial, keypoints: pelvis.is_line };
     let feet = feet::find(&trajectories, &frames, observed, &legs, &generic.dimensions, &mut assumptions);
     let trunk = trunk::find(&trajectories, &frames, &pelvis, &generic.dimensions, person, &mut assumptions);
-    let moving = moving_parts::shown(&trajectories, &pelvis, &trunk);
-    let generic = if moving == MovingParts::default() { generic } else { full_body_with(&build, &moving)? };
-    let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk, moving };
+    let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk };
     let mut calibrated = assembly::assemble(&trajectories, &frames, &generic, &parts, assumptions)?;
     // Points of video are joint centres, which have their places.
     if trial == Trial::Moving && !pelvis.is_line {

@@ -109,8 +109,11 @@ pub(super) fn proportions(sample: &Sample) -> Proportions {
         forearm: hanging(&sample.forearm),
         hand: hanging(&sample.hand),
         pelvis: vec![lower.below(omphalion)],
-        torso: vec![middle.below(xiphion), upper.below(suprasternale)],
-        head: sample.row(&sample.head).below(1.0 - lengths.leg()),
+        torso: vec![
+            middle.below(xiphion),
+            upper.below(suprasternale),
+            sample.row(&sample.head).below(1.0 - lengths.leg()),
+        ],
     }
 }
 

@@ -56,12 +56,14 @@ pub(super) fn proportions() -> Proportions {
         forearm: row(0.016, LENGTHS.forearm, 0.430, 0.303, FOREARM_SLIMNESS).below(0.0),
         hand: row(0.006, LENGTHS.hand * KNUCKLE, 0.506, 0.297, HAND_SLIMNESS).below(0.0),
         pelvis: Vec::new(),
-        torso: vec![trunk.below(LENGTHS.shoulder)],
-        head: RigidPart {
-            mass: 0.081,
-            center: [0.0, EAR_CANAL - LENGTHS.leg()],
-            radii: [head, head * HEAD_SLIMNESS, head],
-        },
+        torso: vec![
+            trunk.below(LENGTHS.shoulder),
+            RigidPart {
+                mass: 0.081,
+                center: [0.0, EAR_CANAL - LENGTHS.leg()],
+                radii: [head, head * HEAD_SLIMNESS, head],
+            },
+        ],
     }
 }
 

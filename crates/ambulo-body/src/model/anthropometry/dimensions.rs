@@ -100,13 +100,6 @@ impl Dimensions {
         }
     }
 
-    /// The joint between neck and trunk above the lumbar joint: Dumas, Cheze, Verriest 2007 place it 55 % of the depth
-    /// of the thorax from the seventh cervical vertebra towards the jugular notch, 8° up (unverified). At the usual
-    /// places of both that is 1.24 of the distance from the lumbar joint to the shoulders, above the lumbar joint.
-    pub(crate) fn neck(&self) -> f64 {
-        1.24 * (self.shoulder_height - self.lumbar_height.unwrap_or(0.0))
-    }
-
     /// Vertex above mid-hip.
     pub(super) fn vertex(&self) -> f64 {
         self.height - self.leg_length

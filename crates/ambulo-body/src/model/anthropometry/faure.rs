@@ -82,7 +82,6 @@ pub(super) fn proportions() -> Proportions {
         forearm: below(0.0, LOWER_ARM),
         hand: RigidPart { mass: 0.0, center: [0.0, 0.0], radii: [0.0; 3] },
         pelvis: Vec::new(),
-        torso: vec![below(lengths.shoulder, TRUNK)],
-        head: below(1.0 - lengths.leg(), HEAD),
+        torso: vec![below(lengths.shoulder, TRUNK), below(1.0 - lengths.leg(), HEAD)],
     }
 }

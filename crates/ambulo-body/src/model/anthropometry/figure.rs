@@ -4,7 +4,7 @@ use super::dimensions::Dimensions;
 use super::foot;
 use super::proportions::{Proportions, RigidPart};
 use super::ranges::{self, Range};
-use super::{Build, BuildError, MovingParts};
+use super::{Build, BuildError};
 use crate::model::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
     JointSpeeds, Marker, Model, Side,
@@ -17,18 +17,16 @@ struct FigureBuilder<'a> {
     /// Body mass divided by the sum of the shares in the table [kg].
     mass: f64,
     dimensions: &'a Dimensions,
-    parts: MovingParts,
     bodies: Vec<Body>,
     coordinates: Vec<Coordinate>,
     markers: Vec<Marker>,
 }
 
-pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions, parts: &MovingParts) -> Result<Model, BuildError> {
+pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Model, BuildError> {
     let mut builder = FigureBuilder {
         build,
         mass: build.mass / p.mass(),
         dimensions: d,
-        parts: *parts,
         bodies: Vec::new(),
         coordinates: Vec::new(),
         markers: Vec::new(),
@@ -37,11 +35,9 @@ pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions, parts: &Movi
     for side in Side::BOTH {
         builder.leg(root, side, p)?;
     }
-    let mut forearms = Vec::new();
     for side in Side::BOTH {
-        forearms.push((side, builder.arm(torso, side, p)?));
+        builder.arm(torso, side, p)?;
     }
-    builder.moving_parts(torso, &forearms, p)?;
     let FigureBuilder { bodies, coordinates, markers, .. } = builder;
     let rounded = |x: f64| (1e3 * x).round() / 1e3;
     let name = format!("{} {} kg {} m", build.table, rounded(build.mass), rounded(build.height));
@@ -52,9 +48,7 @@ impl FigureBuilder<'_> {
     /// The root and the body with the shoulders, which may be the same.
     fn trunk(&mut self, p: &Proportions) -> Result<(BodyId, BodyId), BuildError> {
         let d = *self.dimensions;
-        let mut parts = p.torso.clone();
-        parts.extend((!self.parts.head).then_some(p.head));
-        let upper = self.rigid_parts(&parts, Vec3::zeros())?;
+        let upper = self.rigid_parts(&p.torso, Vec3::zeros())?;
         let (root, torso, lumbar) = if let Some(height) = d.lumbar_height {
             let lumbar = Vec3::new(0.0, height, 0.0);
             let lower = self.rigid_parts(&p.pelvis, Vec3::zeros())?;
@@ -102,43 +96,19 @@ impl FigureBuilder<'_> {
         Ok(())
     }
 
-    /// Upper arm and forearm; returns the forearm.
-    fn arm(&mut self, torso: BodyId, side: Side, p: &Proportions) -> Result<BodyId, BuildError> {
+    fn arm(&mut self, torso: BodyId, side: Side, p: &Proportions) -> Result<(), BuildError> {
         let d = *self.dimensions;
         let at = |name: &str| format!("{name}_{}", side.letter());
         let up = d.shoulder_height - d.lumbar_height.unwrap_or(0.0);
         let shoulder = outward(side, 0.5 * d.shoulder_width) + Vec3::new(0.0, up, 0.0);
         let (elbow, wrist) = (Vec3::new(0.0, -d.upper_arm, 0.0), Vec3::new(0.0, -d.forearm, 0.0));
         let upper = self.rigid_parts(&[p.upper_arm], Vec3::zeros())?;
-        let forearm = self.rigid_parts(&[p.forearm], Vec3::zeros())?;
-        let lower = match self.parts.hands[side] {
-            true => forearm,
-            false => forearm.joined(&self.rigid_parts(&[p.hand], wrist)?),
-        };
+        let lower = self.rigid_parts(&[p.forearm], Vec3::zeros())?.joined(&self.rigid_parts(&[p.hand], wrist)?);
         let humerus = self.hinge(&at("humerus"), upper, torso, shoulder, &at("arm_flex"), ranges::SHOULDER_FLEXION);
         let forearm = self.hinge(&at("forearm"), lower, humerus, elbow, &at("elbow_flex"), ranges::ELBOW_FLEXION);
         self.marker(&at("shoulder"), torso, shoulder);
         self.marker(&at("elbow"), humerus, elbow);
         self.marker(&at("wrist"), forearm, wrist);
-        Ok(forearm)
-    }
-
-    /// Head and hands that have joints.
-    fn moving_parts(&mut self, torso: BodyId, forearms: &[(Side, BodyId)], p: &Proportions) -> Result<(), BuildError> {
-        let d = *self.dimensions;
-        if self.parts.head {
-            let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
-            let neck = Vec3::y() * d.neck();
-            let head = self.rigid_parts(&[p.head], Vec3::zeros())?.seen_from(&Pose::at(-lumbar - neck));
-            self.hinge("head", head, torso, neck, "neck_extension", ranges::NECK_EXTENSION);
-        }
-        for (side, forearm) in forearms.iter().filter(|(side, _)| self.parts.hands[*side]).copied().collect::<Vec<_>>()
-        {
-            let at = |name: &str| format!("{name}_{}", side.letter());
-            let hand = self.rigid_parts(&[p.hand], Vec3::zeros())?;
-            let wrist = Vec3::y() * -d.forearm;
-            self.hinge(&at("hand"), hand, forearm, wrist, &at("wrist_dev"), ranges::WRIST_DEVIATION);
-        }
         Ok(())
     }
 

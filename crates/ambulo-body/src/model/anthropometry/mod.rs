@@ -61,7 +61,7 @@ pub use foot::{ContactSphere, SpherePart};
 pub use table::{SegmentTable, UnknownTable};
 
 use super::anatomy::Sole;
-use super::{BySide, Model, ModelError, Side};
+use super::{Model, ModelError, Side};
 use crate::numerics::Shown;
 use crate::spatial::InertiaError;
 
@@ -83,16 +83,6 @@ pub struct Build {
     pub height: f64,
     /// Whether the toes have a joint at the ball of the foot.
     pub toe_joint: bool,
-}
-
-/// Parts of the upper body that are bodies of their own, behind the others in the list; a part without a joint is rigid
-/// with trunk or forearm.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct MovingParts {
-    /// A joint at the base of the neck.
-    pub(crate) head: bool,
-    /// Joints of the wrists.
-    pub(crate) hands: BySide<bool>,
 }
 
 /// Why a figure cannot be built.
@@ -178,15 +168,10 @@ impl Build {
     /// # Errors
     /// An implausible mass, stature or combination of both.
     pub fn human(&self) -> Result<Human, BuildError> {
-        self.human_with(&MovingParts::default())
-    }
-
-    /// The figure with joints of neck and wrists.
-    pub(in crate::model) fn human_with(&self, parts: &MovingParts) -> Result<Human, BuildError> {
         self.check()?;
         let proportions = self.table.proportions();
         let dimensions = Dimensions::new(&proportions.lengths, self.height);
-        let model = figure::model(self, &proportions, &dimensions, parts)?;
+        let model = figure::model(self, &proportions, &dimensions)?;
         let soles = foot::soles(&model, &dimensions, self.toe_joint);
         Ok(Human { model, soles, dimensions, build: *self })
     }

@@ -58,10 +58,8 @@ pub(super) struct Proportions {
     pub(super) hand: RigidPart,
     /// Parts below the lumbar joint, relative to mid-hip; empty for an undivided trunk.
     pub(super) pelvis: Vec<RigidPart>,
-    /// Trunk above the lumbar joint, relative to mid-hip.
+    /// Trunk and head, relative to mid-hip.
     pub(super) torso: Vec<RigidPart>,
-    /// Head, relative to mid-hip.
-    pub(super) head: RigidPart,
 }
 
 impl Lengths {
@@ -83,7 +81,7 @@ impl Proportions {
     /// Sum of all shares of mass: one, up to the rounding of printed numbers.
     pub(super) fn mass(&self) -> f64 {
         let limb = [self.thigh, self.shank, self.foot, self.upper_arm, self.forearm, self.hand];
-        let trunk = self.pelvis.iter().chain(&self.torso).chain([&self.head]);
+        let trunk = self.pelvis.iter().chain(&self.torso);
         2.0 * limb.iter().map(|part| part.mass).sum::<f64>() + trunk.map(|part| part.mass).sum::<f64>()
     }
 }

@@ -17,10 +17,5 @@ pub(super) const KNEE: Range = [-150.0, 10.0];
 pub(super) const ANKLE: Range = [-50.0, 35.0];
 /// Toes up is positive.
 pub(super) const TOES: Range = [-45.0, 80.0];
-/// Extension is positive. Flexion 60, extension 75 (Merck manual; unverified).
-pub(super) const NECK_EXTENSION: Range = [-60.0, 75.0];
-/// Towards the thumb is positive. Radial deviation 20, ulnar deviation 30 (the same source), and as much again: zero is
-/// the hand in standing, which hangs towards the little finger.
-pub(super) const WRIST_DEVIATION: Range = [-60.0, 60.0];
 pub(super) const SHOULDER_FLEXION: Range = [-60.0, 180.0];
 pub(super) const ELBOW_FLEXION: Range = [-10.0, 160.0];
