@@ -10,9 +10,9 @@ use crate::motion::MarkerRecording;
 /// Cross-talk is large if varus follows flexion with this r², ranges over more than this [rad], and a turn of the
 /// knee's axis by more than this [rad] explains it: the sine of 15 degrees puts a quarter of the flexion moment into
 /// varus.
-const LARGE_R2: f64 = 0.5;
-const LARGE_VARUS: f64 = 10.0 * std::f64::consts::PI / 180.0;
-const LARGE_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
+const LARGE_R2: f64 = 0.8;
+const LARGE_VARUS: f64 = 15.0 * std::f64::consts::PI / 180.0;
+const LARGE_TURN: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Largest turn of a knee axis by the least cross-talk [rad]: more is no axis that was palpated wrongly.
 const MOST_TURN: f64 = 30.0 * std::f64::consts::PI / 180.0;
 
