@@ -8,7 +8,7 @@ use ambulo::findings::Code;
 use ambulo::ground::predict::PredictError;
 use ambulo::job::{Field, JobError};
 use ambulo::kinematics::TrajectoryError;
-use ambulo::kinematics::calibration::CalibrationError as BodyError;
+use ambulo::kinematics::calibration::CalibrationError as NoBody;
 use ambulo::kinematics::sensor_fit::SensorError;
 use ambulo::motion::skeleton::SkeletonError;
 use ambulo::motion::{B3dError, MotionError, SmplError};
@@ -154,10 +154,10 @@ fn of_study(error: &StudyError) -> Option<&'static str> {
         StudyError::Markers(MarkerTrialError::SeveralPeople { .. } | MarkerTrialError::NoSuchPerson { .. }) => {
             Some("`--subject NAME` chooses one of them")
         }
-        StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(BodyError::Markers { .. })) => {
+        StudyError::Markers(MarkerTrialError::Names(_) | MarkerTrialError::Calibration(NoBody::Markers { .. })) => {
             Some(
-                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct the \
-             file, then give it with `--markers mine.toml`",
+                "`ambulo info FILE --markers mine.toml` writes the markers with proposals for their meaning; correct \
+                 the file, then give it with `--markers mine.toml`",
             )
         }
         StudyError::ForceTable(error) | StudyError::Device(error) => of_motion(error),

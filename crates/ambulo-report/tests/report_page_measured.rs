@@ -83,7 +83,7 @@ fn metrics_markers_and_plates_are_tables_of_quality() {
     assert_eq!(shown.row("agreement", "left")[1..4], ["vertical", "3.1", "4.1"]);
     assert_eq!(shown.row("centers", "left")[1..3], ["12", "6"]);
     assert_eq!(shown.row("events", "prediction")[3..5], ["2", "1"]);
-    assert_eq!(shown.row("markers", "RASI")[1..], ["44.0", "60.0", "250", "41", "3"]);
+    assert_eq!(shown.row("markers", "RASI")[1..], ["-", "44.0", "60.0", "250", "41", "3"]);
     assert_eq!(
         shown.row("plates", "plate 1")[1..],
         ["left", "0.10", "0.80", "700", "partial", "the toes stand beside it"]
@@ -93,7 +93,7 @@ fn metrics_markers_and_plates_are_tables_of_quality() {
     let tables = quality["tables"].as_array().unwrap();
     let markers = tables.iter().find(|table| table["id"] == "markers").unwrap();
     assert_eq!(markers["rows"][0][0]["text"], "RASI", "the largest error first");
-    assert_eq!((&markers["rows"][0][1]["outside"], &markers["rows"][1][1]["outside"]), (&json!(true), &json!(false)));
+    assert_eq!((&markers["rows"][0][2]["outside"], &markers["rows"][1][2]["outside"]), (&json!(true), &json!(false)));
     let fact = quality["facts"].as_array().unwrap().iter().find(|fact| fact["value"] == "25.0 mm").unwrap();
     assert_eq!(fact["good"], false);
 }

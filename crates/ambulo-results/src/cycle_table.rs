@@ -2,6 +2,7 @@
 
 use crate::sound::{EXPECTED, is_sound};
 use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle_of};
+use ambulo::dynamics::JointMoments;
 use ambulo::ground::BodyForces;
 use ambulo::model::anatomy::Movement;
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
@@ -9,6 +10,7 @@ use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
 use ambulo_formats::number::NumberText;
 use ambulo_formats::table::{guarded, unguarded};
+use std::collections::BTreeSet;
 
 /// One curve of one cycle: 101 values.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,27 +44,27 @@ pub const JOINT_MOMENTS: [(&str, Movement); 5] = [
 /// cycles of both.
 #[must_use]
 pub fn cycle_rows(model: &Model, analysis: &Analysis) -> Vec<CycleRow> {
-    analysis.cycles.iter().flat_map(|cycle| rows_of(model, analysis, cycle)).collect()
+    let moments = analysis.joint_moments(model);
+    analysis.cycles.iter().flat_map(|cycle| rows_of(model, analysis, cycle, &moments)).collect()
 }
 
 /// The curves of one cycle.
-pub(crate) fn rows_of(model: &Model, analysis: &Analysis, cycle: &Cycle) -> Vec<CycleRow> {
+pub(crate) fn rows_of(model: &Model, analysis: &Analysis, cycle: &Cycle, moments: &JointMoments<'_>) -> Vec<CycleRow> {
     let grid = analysis.trajectory.grid();
     let mut rows: Vec<CycleRow> =
         model.coordinate_ids().flat_map(|id| coordinate_rows(model, analysis, cycle, id)).collect();
-    let more = joint_moment_rows(model, analysis, cycle, &rows);
-    rows.extend(more);
+    let more = joint_moment_rows(model, moments, cycle, grid);
+    let names: BTreeSet<String> = rows.iter().map(|row| row.quantity.clone()).collect();
+    rows.extend(more.into_iter().filter(|row| !names.contains(&row.quantity)));
     rows.extend(ground_rows(model, analysis, cycle, grid));
     rows
 }
 
 /// Moments of the leg that no coordinate has, from the reactions in its joints.
-fn joint_moment_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, known: &[CycleRow]) -> Vec<CycleRow> {
-    let (grid, moments) = (analysis.trajectory.grid(), analysis.joint_moments(model));
+fn joint_moment_rows(model: &Model, moments: &JointMoments<'_>, cycle: &Cycle, grid: TimeGrid) -> Vec<CycleRow> {
     let found = |(name, movement): (&str, Movement)| {
-        let is_of_coordinate = known.iter().any(|row| row.quantity == name)
-            || movement < Movement::AnkleDorsiflexion
-                && model.anatomy().coordinate(movement, Some(cycle.side)).is_some();
+        let is_of_coordinate =
+            movement < Movement::AnkleDorsiflexion && model.anatomy().coordinate(movement, Some(cycle.side)).is_some();
         moments.at(movement, cycle.side, 0).filter(|_| !is_of_coordinate)?;
         let at = |frame: usize| moments.at(movement, cycle.side, frame).unwrap_or(f64::NAN);
         Some(row(name.to_owned(), "N.m", cycle, grid, at))

@@ -7,11 +7,13 @@ use crate::{
     tables,
 };
 use ambulo::analysis::{Analysis, Event};
+use ambulo::dynamics::JointMoments;
 use ambulo::model::{ExportError, Model, to_osim};
 use ambulo_formats::Error;
 use ambulo_formats::table::{Table, TableRows};
 use std::io::{self, Write};
 use std::marker::PhantomData;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A file to be written. Tables are computed when they are written or read, so that they take no memory before.
 pub struct OutputFile<'a> {
@@ -320,7 +322,13 @@ pub(crate) fn files_of<'a>(
         files.push(OutputFile::events(&analysis.events)?);
     }
     if !analysis.cycles.is_empty() {
-        let rows = |k: usize| cycle_table::rows_of(model, analysis, &analysis.cycles[k]);
+        // The loads are copied once for all cycles, when the first one is read.
+        let shared: OnceLock<Mutex<JointMoments<'a>>> = OnceLock::new();
+        let rows = move |k: usize| {
+            let moments = shared.get_or_init(|| Mutex::new(analysis.joint_moments(model)));
+            let moments = moments.lock().unwrap_or_else(PoisonError::into_inner);
+            cycle_table::rows_of(model, analysis, &analysis.cycles[k], &moments)
+        };
         files.push(OutputFile::cycles(analysis.cycles.len(), rows));
     }
     files.retain(|file| keep.includes(&file.name));

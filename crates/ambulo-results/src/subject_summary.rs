@@ -54,7 +54,7 @@ pub struct SubjectSummary {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HipsSummary {
-    /// The name of a regression (`--hip`), `functional` or `recorded`.
+    /// The name of a regression, `functional` or `recorded`.
     pub method: String,
     /// Mean distance from the centres in images of the hips, as published for the method [mm]; `null` for recorded
     /// ones.

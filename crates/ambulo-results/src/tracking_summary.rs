@@ -18,7 +18,8 @@ pub struct TrackingSummary {
     pub rotations_rms_deg: f64,
     /// Largest change of each rotation by the name of its coordinate [deg].
     pub largest_change_deg: BTreeMap<String, f64>,
-    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [mm]; `null` without arms.
+    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [mm]; `null` without
+    /// arms.
     pub hands_mm: Option<f64>,
     /// Root mean square of the changes of the position of the root [mm].
     pub root_rms_mm: f64,

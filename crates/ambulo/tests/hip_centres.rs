@@ -55,8 +55,8 @@ fn the_regression_of_plug_in_gait_finds_the_hip_centres_that_plug_in_gait_wrote_
                 if hip == HipRegression::PlugInGait {
                     assert!(off.norm() < 0.002, "{} {side}: {off:?}", subject.name);
                     compared += 1;
-                } else {
-                    assert!(off.norm() > 0.005, "{} {side} {word}: {off:?}", subject.name);
+                } else if hip == HipRegression::Harrington {
+                    assert!(off.norm() > 0.010, "{} {side} {word}: {off:?}", subject.name);
                 }
             }
         }

@@ -240,13 +240,15 @@ fn names_of_other_laboratories_mean_what_they_say() {
         ),
         (
             "cmu",
-            "ARIEL C7 LFSH RFSH LUPA RUPA LELB RELB LIEL RIEL LIWR RIWR CLAV T10 STRN LFWT RFWT LBWT RBWT LMWT RMWT LKNE \
+            "ARIEL C7 LFSH RFSH LUPA RUPA LELB RELB LIEL RIEL LIWR RIWR CLAV T10 STRN LFWT RFWT LBWT RBWT LMWT RMWT \
+             LKNE \
              LKNI RKNE RKNI LSHN RSHN LANK LANI RANK RANI LHEL RHEL LMT5 RMT5 LMT1 RMT1 LTOE RTOE",
             &[("RKNI", L::MedialEpicondyle), ("RANI", L::MedialMalleolus), ("RIEL", L::MedialElbow), ("RHEL", L::Heel)],
         ),
         (
             "words",
-            "LFrontAsis RFrontAsis LBackAsis RBackAsis LKneeOut RKneeOut LKneeIn RKneeIn LAnkleOut RAnkleOut LHeel RHeel \
+            "LFrontAsis RFrontAsis LBackAsis RBackAsis LKneeOut RKneeOut LKneeIn RKneeIn LAnkleOut RAnkleOut LHeel \
+             RHeel \
              LMeta5 RMeta5",
             &[("RFrontAsis", L::Asis), ("RBackAsis", L::Psis), ("RKneeIn", L::MedialEpicondyle)],
         ),

@@ -121,7 +121,7 @@ fn parts_with_too_few_markers_are_rigid() {
     let two_of_head = names(&["FHD"]);
     assert!(!has(&two_of_head, "head") && has(&two_of_head, "hand_r"));
     // With few markers of the trunk those of the head show the trunk.
-    let few_of_trunk = names(&["C7", "T10", "STRN", "RBAK"]);
+    let few_of_trunk = names(&["C7", "T10", "CLAV", "STRN", "RBAK"]);
     assert!(!has(&few_of_trunk, "head"), "{few_of_trunk:?}");
 }
 

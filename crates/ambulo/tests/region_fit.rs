@@ -83,7 +83,7 @@ fn an_elbow_marker_that_is_elsewhere_spoils_neither_legs_nor_quality() {
 #[test]
 fn a_lost_hand_takes_no_time_from_the_legs() {
     let Some(data) = data() else { return };
-    let hand = ["RFRM", "RWRA", "RWRB", "RFIN"];
+    let hand = ["RWRA", "RWRB", "RFIN"];
     let (clean, _) = run(&data, |_| ());
     for (from, to) in [(0.0, 1.0), (0.4, 1.0), (0.2, 0.8)] {
         let (found, _) = run(&data, |recording| {
@@ -107,7 +107,7 @@ fn a_loose_trunk_marker_is_in_the_region_of_the_trunk() {
     let trunk = regions(&found).iter().find(|fit| fit.region == Region::Trunk).unwrap();
     println!("trunk {:?}, before {:.1} mm", trunk.markers, rms_mm(&clean, Region::Trunk));
     assert_eq!(trunk.markers[0].0, "C7");
-    assert!(trunk.rms_m > 1e-3 * rms_mm(&clean, Region::Trunk));
+    assert!(rms_mm(&found, Region::Trunk) > rms_mm(&clean, Region::Trunk));
     assert!(change_of_moments(&clean, &found) < 0.05);
     assert_ne!(found.quality.state, QualityState::Bad, "{:?}", found.quality.reasons);
 }
@@ -115,25 +115,25 @@ fn a_loose_trunk_marker_is_in_the_region_of_the_trunk() {
 #[test]
 fn the_region_that_does_not_fit_is_named_and_only_legs_are_bad() {
     let Some(data) = data() else { return };
-    // Markers of one region that contradict each other: alternate ones are moved forwards and backwards.
-    let apart = |markers: &mut MarkerRecording, names: &[&str], far: f64| {
+    // Markers of one region that contradict each other: every second one is moved the other way.
+    let apart = |markers: &mut MarkerRecording, names: &[&str], by: Vec3| {
         for (k, name) in names.iter().enumerate() {
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-            move_markers(markers, &[name], |time_s| Vec3::new(0.3, 0.0, 1.0) * (sign * far * (11.0 * time_s).cos()));
+            move_markers(markers, &[name], |_| by * sign);
         }
     };
     let trunk = ["C7", "T10", "CLAV", "STRN", "RBAK"];
-    let (found, findings) = run(&data, |markers| apart(markers, &trunk, 0.2));
+    let (found, findings) = run(&data, |markers| apart(markers, &trunk, Vec3::new(0.0, 0.1, 0.1)));
     println!("{:?}\n{:?}", found.quality, regions(&found));
     assert!(findings.has(Code::MarkersTrunk) && !findings.has(Code::MarkersArms));
     assert!(found.quality.reasons.iter().any(|reason| reason.measure == Measure::TrunkFit));
     assert_ne!(found.quality.state, QualityState::Bad, "{:?}", found.quality.reasons);
-    let arms = ["RELB", "RWRA", "RWRB", "RFRM", "RUPA", "LELB", "LWRA", "LWRB", "LFRM", "LUPA"];
-    let (found, findings) = run(&data, |markers| apart(markers, &arms, 0.15));
+    let arms = ["RELB", "RWRA", "RWRB", "LELB", "LWRA", "LWRB"];
+    let (found, findings) = run(&data, |markers| apart(markers, &arms, Vec3::new(0.1, 0.0, 0.1)));
     assert!(findings.has(Code::MarkersArms) && !findings.has(Code::MarkersTrunk), "{:?}", regions(&found));
     assert_eq!(found.quality.state, QualityState::Good, "{:?}", found.quality.reasons);
     let legs = ["RKNE", "RANK", "RTIB", "RTHI", "LKNE", "LANK", "LTIB", "LTHI"];
-    let (found, findings) = run(&data, |markers| apart(markers, &legs, 0.2));
+    let (found, findings) = run(&data, |markers| apart(markers, &legs, Vec3::new(0.1, 0.0, 0.1)));
     assert!(!findings.has(Code::MarkersArms) && !findings.has(Code::MarkersTrunk), "{:?}", regions(&found));
     assert_eq!(found.quality.state, QualityState::Bad);
     let of_fit = found.quality.reasons.iter().find(|reason| reason.measure == Measure::MarkerFit).unwrap();

@@ -30,7 +30,7 @@ fn person() -> Human {
     full_body(&Build { table: SegmentTable::DeLevaMale, mass: 70.0, height: 1.75, toe_joint: true }).unwrap()
 }
 
-/// Coordinates of a walk: hips, knees and ankles swing, the pelvis travels.
+/// Coordinates of a walk: hips, knees, ankles and trunk swing, the pelvis travels.
 fn walking(human: &Human, frame: usize) -> Vec<f64> {
     let phase = 0.3 * frame as f64;
     let value = |name: &str| match name {
@@ -40,6 +40,7 @@ fn walking(human: &Human, frame: usize) -> Vec<f64> {
         "knee_angle_r" => -0.4 - 0.4 * phase.cos(),
         "knee_angle_l" => -0.4 + 0.4 * phase.cos(),
         "ankle_angle_r" | "ankle_angle_l" => 0.2 * (1.7 * phase).sin(),
+        "lumbar_extension" | "lumbar_bending" => 0.2 * (1.3 * phase).cos(),
         _ => 0.0,
     };
     human.model.coordinates().iter().map(|c| c.default_value + value(&c.name)).collect()
@@ -384,9 +385,17 @@ fn a_run_with_clusters_without_names() {
     compare(&CASES[2]);
 }
 
+/// Each thigh has one technical marker here, and the feet are hardly seen: too little for a pose, which is said.
 #[test]
-fn a_walk_with_single_technical_markers_without_names() {
-    compare(&CASES[3]);
+fn a_walk_with_single_technical_markers_is_not_followed_in_silence() {
+    let Some(data) = shared_data::data() else { return };
+    let case = &CASES[3];
+    let source = case.read(&data);
+    let (whole, none) = run(source.clone());
+    let (found, findings) = run(with_few_names(&source, &leg_markers(&whole), 3));
+    println!("{}: {:?}, renamed {:?}", case.folder, use_of_markers(&whole), use_of_markers(&found));
+    assert!(!none.has(Code::MarkersSegmentHardlyShown), "{none:?}");
+    assert!(findings.has(Code::MarkersSegmentHardlyShown), "{findings:?}");
 }
 
 #[test]

@@ -86,23 +86,29 @@ pub(super) fn rust_code(document: &str) -> String {
     code
 }
 
-/// Files of `crates/*/tests` that neither `tests/main.rs` nor `Cargo.toml` names.
+/// Files of `crates/*/tests` that neither `Cargo.toml` nor a program that it names has as a module.
 pub(super) fn forgotten_tests(workspace: &Path) -> Result<Vec<String>, String> {
     let mut forgotten = Vec::new();
     for folder in entries(&workspace.join("crates"))? {
         let tests = folder.join("tests");
-        let Ok(main) = fs::read_to_string(tests.join("main.rs")) else { continue };
+        let Ok(mut programs) = fs::read_to_string(tests.join("main.rs")) else { continue };
         let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
-        for path in entries(&tests)?.iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs")) {
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            let module = format!("mod {stem};");
-            let is_listed = main.lines().any(|line| line == module) || manifest.contains(&format!("tests/{stem}.rs"));
-            if !is_listed {
+        let files = entries(&tests)?.into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "rs"));
+        let of_program = |path: &PathBuf| manifest.contains(&format!("tests/{}", file_name(path)));
+        let (named, others): (Vec<PathBuf>, Vec<PathBuf>) = files.partition(of_program);
+        programs.extend(named.iter().map(|path| fs::read_to_string(path).unwrap_or_default()));
+        for path in &others {
+            let module = format!("mod {};", file_name(path).trim_end_matches(".rs"));
+            if *path != tests.join("main.rs") && !programs.lines().any(|line| line == module) {
                 forgotten.push(path.strip_prefix(workspace).unwrap_or(path).display().to_string());
             }
         }
     }
     Ok(forgotten)
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 fn collect(source: &Path, folder: &Path, files: &mut Vec<File>) -> Result<(), String> {

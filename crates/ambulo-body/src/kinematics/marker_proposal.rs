@@ -1,8 +1,9 @@
 //! Proposes the meaning of markers from where they sit on the body.
 //!
-//! Where enough names are known, the built-in body is calibrated and fitted to the known markers. Where some are missing
-//! for that, a body of mean build is fitted, in the stature that fits best; where few names are known, such a body that
-//! stands is compared with the highest posture of the recording. For a marker p and a segment with poses T(t):
+//! Where enough names are known, the built-in body is calibrated and fitted to the known markers. Where some are
+//! missing for that, a body of mean build is fitted, in the stature that fits best; where few names are known, such a
+//! body that stands is compared with the highest posture of the recording. For a marker p and a segment with poses
+//! T(t):
 //!
 //!   score = w · spread + distance
 //!
@@ -110,8 +111,8 @@ pub fn propose_markers(
     MarkerProposals { unknown: unknown.collect(), markers, proposed, statement: reference.statement }
 }
 
-/// Markers on landmarks that define joints, by where they sit on a body that is fitted to the known ones: the nearest to
-/// each landmark that no name has. For a recording whose names do not suffice for a body.
+/// Markers on landmarks that define joints, by where they sit on a body that is fitted to the known ones: the nearest
+/// to each landmark that no name has. For a recording whose names do not suffice for a body.
 pub fn markers_at_joints(recording: &MarkerRecording, recognised: &RecognisedMarkers) -> Vec<NamedMarker> {
     let Some(reference) = Reference::sized(recording, recognised) else { return Vec::new() };
     let mut found: Vec<(f64, NamedMarker)> =

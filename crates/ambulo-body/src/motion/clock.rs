@@ -1,7 +1,7 @@
 //! The clock of a recording: the times of its samples, compared with the frame rate that the file states.
 //!
-//! The time between two samples of a motion lies in [`PLAUSIBLE_S`]. Other values are milliseconds, frames per second in
-//! place of seconds per frame, or a broken clock. Times may be rounded until they repeat, or all be zero: the frame
+//! The time between two samples of a motion lies in [`PLAUSIBLE_S`]. Other values are milliseconds, frames per second
+//! in place of seconds per frame, or a broken clock. Times may be rounded until they repeat, or all be zero: the frame
 //! number divided by the frame rate is used then.
 //!
 //! Pinned by: tests/motion_clock.rs

@@ -6,7 +6,8 @@
 //! | `width` | w       | bands below the diagonal                        |
 //! | `rows`  | Aᵢ,ᵢ₋w₊ₖ | `rows[i * (w + 1) + k]`, k = 0..=w, diagonal last |
 //!
-//! Four rows are eliminated side by side, one lane per row, four columns at once; every sum has the order of the columns.
+//! Four rows are eliminated side by side, one lane per row, four columns at once; every sum has the order of the
+//! columns.
 //!
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified).
 //! Cost: rows times w² for the factors, rows times 4 w for a solution.
@@ -216,7 +217,8 @@ impl BandFactor {
 }
 
 impl BandFactor {
-    /// Solves L y = b for [`TOGETHER`] rows from `top` on. Their sums run side by side, each in the order of the columns.
+    /// Solves L y = b for [`TOGETHER`] rows from `top` on. Their sums run side by side, each in the order of the
+    /// columns.
     fn substitute(&self, top: usize, x: &mut [f64]) {
         let BandMatrix { size, width: w, .. } = self.0;
         let end = size.min(top + TOGETHER);

@@ -5,8 +5,8 @@
 //! With equal weights v = 1 the gain at ω is 1 / (1 + λ (2 sin(ω h / 2))⁶), h the time between samples.
 //!
 //! Source: E.T. Whittaker 1923, Proc. Edinburgh Math. Soc. 41:63-75 (unverified).
-//! The equations have three bands below the diagonal, A = L D Lᵀ. With equal weights the rows of L tend to a limit, from
-//! which on they are copied.
+//! The equations have three bands below the diagonal, A = L D Lᵀ. With equal weights the rows of L tend to a limit,
+//! from which on they are copied.
 //!
 //! Cost: 10 multiplications and a division per sample for the factor, 7 multiplications for a solution.
 //! Pinned by: tests/numerics_whittaker.rs
@@ -50,8 +50,8 @@ impl Whittaker {
         self.eigenvalues.iter().map(|e| 1.0 / (1.0 + lambda * e)).sum()
     }
 
-    /// The factored equations for these weights, one per sample, or for equal ones; `None` if λ is not a finite positive
-    /// number.
+    /// The factored equations for these weights, one per sample, or for equal ones; `None` if λ is not a finite
+    /// positive number.
     #[must_use]
     pub(crate) fn factor(&self, weights: Option<&[f64]>, lambda: f64) -> Option<SmoothingFactor> {
         let count = self.eigenvalues.len();

@@ -1,16 +1,16 @@
-//! Points of a recording that no camera saw: joint centres, ends of axes and the mass centre, which programs compute from
-//! the markers and store beside them.
+//! Points of a recording that no camera saw: joint centres, ends of axes and the mass centre, which programs compute
+//! from the markers and store beside them.
 //!
-//! Skin slides and cameras have noise, so that the distance between two markers varies by a tenth of a millimetre at the
-//! least, even on a stiff plate after a low-pass of 6 Hz. Computed points often keep theirs: an axis has a constant
+//! Skin slides and cameras have noise, so that the distance between two markers varies by a tenth of a millimetre at
+//! the least, even on a stiff plate after a low-pass of 6 Hz. Computed points often keep theirs: an axis has a constant
 //! length, and a joint centre a constant distance from its marker. Others have names that say what they are.
 
 use super::segment_motion::sample;
 use crate::model::marker_set::NamedMarker;
 use crate::motion::{MarkerPath, MarkerRecording};
 
-/// Two points whose distance varies less than this are a marker and a computed point, or two of these: standard deviation
-/// [m].
+/// Two points whose distance varies less than this are a marker and a computed point, or two of these: standard
+/// deviation [m].
 const CONSTANT_M: f64 = 2e-5;
 /// Smallest number of frames in which a distance is seen.
 const LEAST_FRAMES: usize = 10;

@@ -30,15 +30,15 @@ mod segment_motion;
 pub use computed::computed_points;
 
 use crate::model::marker_set::{NamedMarker, Segment};
-use crate::model::{BodyId, Marker, Model};
+use crate::model::{BodyId, Marker, Model, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::Vec3;
 use segment_motion::SegmentMotion;
 use std::collections::BTreeMap;
 
-/// A marker belongs to a segment if it stays this near to its mean place on it [m]: the limit from which a marker counts
-/// as misplaced in a fit.
+/// A marker belongs to a segment if it stays this near to its mean place on it [m]: the limit from which a marker
+/// counts as misplaced in a fit.
 const FARTHEST_M: f64 = 0.04;
 /// A marker of the motion that is further than this from where the standing trial has it was put on anew [m]: its place
 /// is taken from the motion.
@@ -176,11 +176,12 @@ struct Search<'a> {
 impl Search<'_> {
     /// The segment of a marker; `own` are segment and weight by its name.
     fn placed(&self, name: &str, own: Option<(BodyId, f64)>) -> Option<Placed> {
-        let on = |(segment, side): (Segment, _)| {
-            let body = segment.body(self.body.model, side)?;
+        let model = self.body.model;
+        let of_sets = Segment::all().filter_map(|(segment, side)| Some((segment.body(model, side)?, segment)));
+        let on = |(body, segment): (BodyId, Segment)| {
             self.on(body, name, self.weight(segment, body)).filter(|placed| self.is_near(placed, segment))
         };
-        let mut segments: Vec<Placed> = Segment::all().filter_map(on).collect();
+        let mut segments: Vec<Placed> = of_sets.chain(moving_parts(model)).filter_map(on).collect();
         segments.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
         let least_m = segments.first()?.distance_m;
         if let Some((body, weight)) = own
@@ -202,7 +203,8 @@ impl Search<'_> {
         segment.technical_weight().min(if is_shown { BESIDE_JOINT } else { f64::INFINITY })
     }
 
-    /// A marker on this body: where it is in the standing trial or, if it was put on anew or is not there, in the motion.
+    /// A marker on this body: where it is in the standing trial or, if it was put on anew or is not there, in the
+    /// motion.
     fn on(&self, body: BodyId, name: &str, weight: f64) -> Option<Placed> {
         let seen = self.moved.seen_from(body, name);
         if seen.len() < LEAST_FRAMES {
@@ -255,10 +257,15 @@ fn trunk_markers(body: MarkedBody<'_>) -> usize {
     body.model.markers().iter().filter(|marker| marker.body == trunk).filter(is_reliable).count()
 }
 
+/// Head and hands, if the body has joints for them: their markers are as loose as those of a forearm.
+fn moving_parts(model: &Model) -> impl Iterator<Item = (BodyId, Segment)> {
+    ["head", "hand_r", "hand_l"].into_iter().filter_map(move |name| Some((model.body(name)?, Segment::Forearm)))
+}
+
 /// Whether a marker is on the head, as far as the head is a part of the trunk.
 fn is_on_head(model: &Model, placed: &Placed) -> bool {
-    let trunk = Segment::Torso.body(model, None);
-    let carried = model.bodies().iter().filter(|other| other.joint.parent == trunk);
-    let shoulders_m = carried.map(|other| other.joint.parent_from_joint.translation.y).fold(0.0, f64::max);
-    Some(placed.body) == trunk && placed.location.y > HEAD * shoulders_m
+    let arms = Side::BOTH.into_iter().filter_map(|side| Segment::Humerus.body(model, Some(side)));
+    let heights = arms.map(|arm| model.bodies()[arm.index()].joint.parent_from_joint.translation.y);
+    let shoulders_m = heights.fold(0.0, f64::max);
+    Some(placed.body) == Segment::Torso.body(model, None) && placed.location.y > HEAD * shoulders_m
 }

@@ -122,8 +122,8 @@ fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
     let most = largest.map_or_else(String::new, |(name, deg)| format!(" (most: {name} by {deg:.0} deg)"));
     let hands = hands_mm.map_or_else(String::new, |mm| format!(", a hand by at most {mm:.0} mm"));
     print_line(&format!(
-        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual at \
-         most {:.3} % of body weight, {steps} steps",
+        "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual \
+         at most {:.3} % of body weight, {steps} steps",
         100.0 * residual_peak
     ))
 }

@@ -186,8 +186,8 @@ fn contradicted_rate(
         _ => (parameter, "POINT:RATE was used"),
     };
     let message = format!(
-        "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every speed \
-         and force depends on it; correct the one that is wrong"
+        "POINT:RATE is {parameter} Hz, but the header states {in_header} frames per second; {chosen}. hint: every \
+         speed and force depends on it; correct the one that is wrong"
     );
     remarks.push(Remark::of_clock(message));
     used

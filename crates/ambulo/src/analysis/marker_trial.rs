@@ -165,7 +165,7 @@ impl MarkerTrial<'_> {
             _ => calibrated(findings),
         };
         let subject = subject?.with_chosen_knee_axes(&self.body, moving, from, findings)?;
-        Ok(self.with_technical_markers(subject, moving, standing, findings))
+        Ok(subject.with_technical_markers(self.body.marker_set(), moving, standing, findings))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Which markers of a motion the body follows: those that its calibration knows, and those that move with a segment.
 
-use super::marker_trial::MarkerTrial;
 use super::subject::Subject;
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::MarkerFit;
@@ -18,31 +17,31 @@ const AT_JOINT: f64 = 1.0;
 /// Most names in a message.
 const MOST_NAMES: usize = 12;
 
-impl MarkerTrial<'_> {
+impl Subject {
     /// The body with the markers of the motion that it does not have yet, on the segments with which they move. A given
-    /// model keeps its markers. Both recordings are in world axes.
+    /// model keeps its markers. Both recordings are in world axes; `set` is the marker set that the caller names.
     pub(super) fn with_technical_markers(
-        &self,
-        subject: Subject,
+        self,
+        set: Option<&MarkerSet>,
         moving: &MarkerRecording,
         standing: Option<&MarkerRecording>,
         findings: &mut Findings,
     ) -> Subject {
-        if subject.calibration.is_none() {
-            return subject;
+        if self.calibration.is_none() {
+            return self;
         }
-        let Some(named) = named(moving, self.body.marker_set()) else { return subject };
-        let body = MarkedBody { model: &subject.model, weights: &subject.weights };
+        let Some(named) = named(moving, set) else { return self };
+        let body = MarkedBody { model: &self.model, weights: &self.weights };
         let found = technical_markers(body, moving, standing, &named);
         if found.is_empty() {
-            return subject;
+            return self;
         }
-        let markers = subject.model.markers().iter().chain(found.iter().map(|(marker, _)| marker)).cloned();
-        let Ok(model) = subject.model.with_markers(markers.collect()) else { return subject };
-        report_found(&subject, &found, findings);
-        let mut weights = subject.weights.clone();
+        let markers = self.model.markers().iter().chain(found.iter().map(|(marker, _)| marker)).cloned();
+        let Ok(model) = self.model.with_markers(markers.collect()) else { return self };
+        report_found(&self, &found, findings);
+        let mut weights = self.weights.clone();
         weights.extend(found.iter().map(|(marker, weight)| (marker.name.clone(), *weight)));
-        Subject { model, weights, ..subject }
+        Subject { model, weights, ..self }
     }
 }
 
@@ -67,8 +66,8 @@ fn named(moving: &MarkerRecording, set: Option<&MarkerSet>) -> Option<Vec<NamedM
     }
 }
 
-/// Reports a motion of which the body follows few markers, and thighs and shanks that few markers show. Returns the number
-/// of markers that are seen in any frame, without points that a program computed from others.
+/// Reports a motion of which the body follows few markers, and thighs and shanks that few markers show. Returns the
+/// number of markers that are seen in any frame, without points that a program computed from others.
 pub(super) fn report_use(
     subject: &Subject,
     fit: &MarkerFit,

@@ -76,6 +76,8 @@ fn is_loaded(model: &Model, analysis: &Analysis, side: Side, [start_s, end_s]: [
     let parts: Vec<&BodyForces> = analysis.ground.bodies.iter().filter(is_own).collect();
     let carries =
         |frame: usize| parts.iter().map(|part| part.force[frame]).sum::<Vec3>().dot(&up) > CENTER_OF_PRESSURE_LOAD_N;
-    let middle = start_s + ends_s..=end_s - ends_s;
-    (0..grid.frames).filter(|frame| middle.contains(&grid.time(*frame))).all(carries)
+    // The stance is inside the motion.
+    let frame = |time_s: f64| (time_s - grid.start_s) / grid.step_s;
+    let (first, last) = (frame(start_s + ends_s).ceil() as usize, frame(end_s - ends_s).floor() as usize);
+    (first..=last.min(grid.frames - 1)).all(carries)
 }

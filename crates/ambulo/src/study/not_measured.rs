@@ -5,9 +5,9 @@
 //! | held: one value in every frame | no marker, sensor or column determines it; an anatomical angle of a moving person is never constant |
 //! | on its limit in more than a tenth of the frames | the fit stops at the limit: a marker is misplaced, or the joint was folded in the wrong direction |
 //!
-//! The ranges are passive ranges of joints ([`crate::model::anthropometry`]), which walking does not reach for a tenth of
-//! the time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories record
-//! none of them.
+//! The ranges are passive ranges of joints ([`crate::model::anthropometry`]), which walking does not reach for a tenth
+//! of the time. Toes, arms and trunk are left out: clinical tables do not have the first two, and many laboratories
+//! record none of them.
 
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model, Movement};
@@ -26,7 +26,8 @@ struct NotMeasured {
     is_held: bool,
 }
 
-/// Finds and reports the coordinates of a fitted motion that are not measured. Each is returned with whether it is held.
+/// Finds and reports the coordinates of a fitted motion that are not measured. Each is returned with whether it is
+/// held.
 pub(super) fn not_measured(model: &Model, motion: &Motion, findings: &mut Findings) -> Vec<(CoordinateId, bool)> {
     let asked = || model.coordinate_ids().filter(|id| is_asked(model, *id));
     let found: Vec<NotMeasured> = asked().filter_map(|id| of_coordinate(model, motion, id)).collect();

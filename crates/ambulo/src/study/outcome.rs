@@ -91,7 +91,8 @@ pub struct TrackedGround {
     pub moved: [f64; 2],
     /// Largest change of each rotation [rad], by the name of its coordinate.
     pub turned: Vec<(String, f64)>,
-    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [m]; `None` without arms.
+    /// Largest distance of a hand from its place in the recorded motion, relative to the trunk [m]; `None` without
+    /// arms.
     pub hands_m: Option<f64>,
     /// Steps of the solver.
     pub steps: usize,

@@ -3,8 +3,8 @@
 //! The mean ground force points up, because the mean horizontal acceleration of a person is nearly zero: an axis with
 //! nine tenths of the mean force is the vertical. If this axis is not y, the table has other axes; the direction about
 //! the vertical is the one that puts the centres of pressure under the feet. The unit of the forces follows from the
-//! weight of a step ([`ForceUnit::of_steps`]), and the unit of the moments from their lever: a foot is shorter than half
-//! a metre.
+//! weight of a step ([`ForceUnit::of_steps`]), and the unit of the moments from their lever: a foot is shorter than
+//! half a metre.
 //!
 //! Pinned by: ambulo-cli/tests/plates.rs
 
@@ -53,8 +53,8 @@ struct Vertical {
     sign: f64,
 }
 
-/// Rotates forces from the axes of the markers to world axes, unless they are upright already. Returns the vertical axis
-/// of the table if both are wrong.
+/// Rotates forces from the axes of the markers to world axes, unless they are upright already. Returns the vertical
+/// axis of the table if both are wrong.
 fn turn_to_world(
     forces: &mut [ForceRecording],
     world_from_lab: Option<&Mat3>,

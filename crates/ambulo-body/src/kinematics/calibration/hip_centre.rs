@@ -12,7 +12,7 @@
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
-//! | `width` | W, between the anterior spines | m |
+//! | `width` | W, between the anterior spines; for `plug-in-gait` as stated, if it is | m |
 //! | `depth` | D, from midway between the anterior to midway between the posterior spines | m |
 //! | `legs` | L, anterior spine to medial malleolus | m |
 //! | `trochanters` | A, anterior spine to greater trochanter along x; 0.1288 L - 48.56 mm if it was not measured | m |
@@ -61,6 +61,8 @@ pub enum HipRegression {
 pub(super) struct PelvisSize {
     /// Between the anterior spines.
     pub(super) width: f64,
+    /// The same as it was stated, for Plug-in-Gait, which prefers it.
+    pub(super) stated_width: Option<f64>,
     /// From midway between the anterior spines to midway between the posterior ones.
     pub(super) depth: f64,
     /// From the anterior spine to the medial malleolus.
@@ -126,6 +128,6 @@ fn davis(size: &PelvisSize, side: Side) -> Vec3 {
     Vec3::new(
         c * cos_theta * sin_beta - back * cos_beta,
         -c * cos_theta * cos_beta - back * sin_beta,
-        0.5 * size.width - c * sin_theta,
+        0.5 * size.stated_width.unwrap_or(size.width) - c * sin_theta,
     )
 }

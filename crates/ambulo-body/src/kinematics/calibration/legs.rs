@@ -156,8 +156,8 @@ fn breadths(
     [0, 1].map(|i| measured[i].map_or((usual[i], false), |width| (width, true)))
 }
 
-/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it, the thigh alone
-/// half of this.
+/// Stature [m] from hip, lateral epicondyle and lateral malleolus: thigh and shank are about 0.49 of it, the thigh
+/// alone half of this.
 fn rough_stature(
     trajectories: &LandmarkTrajectories<'_>,
     frames: &[usize],
@@ -205,7 +205,8 @@ impl Finder<'_> {
                 return None;
             }
             assumptions.push(format!(
-                "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of heel \
+                "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of \
+                 heel \
                  and forefoot"
             ));
             return Some(Method::OfFoot(front));
@@ -314,8 +315,8 @@ impl Finder<'_> {
     }
 }
 
-/// Centre of an ankle [m] from a heel and a front marker, which have the landmarks of a usual foot of their distance. The
-/// knee shows which side of the line between them is up, whatever the angle of the ankle.
+/// Centre of an ankle [m] from a heel and a front marker, which have the landmarks of a usual foot of their distance.
+/// The knee shows which side of the line between them is up, whatever the angle of the ankle.
 fn ankle_of_foot([heel, front]: [Vec3; 2], landmark: Landmark, knee: Vec3) -> Option<Vec3> {
     let level = |place: Vec3| Vec3::new(place.x, place.y, 0.0);
     let (rear, ahead) = (level(Landmark::Heel.place()), level(landmark.place()));

@@ -110,7 +110,8 @@ pub fn hip_centres([right, left]: [Vec3; 2], back: Vec3) -> Option<[Vec3; 2]> {
     let rotation = from_z_x(across, front - back)?;
     let (width, depth) = (across.norm(), (front - back).norm());
     let unused = BySide::from([f64::NAN; 2]);
-    let size = PelvisSize { width, depth, legs: unused, trochanters: BySide::default(), radius: 0.0 };
+    let (stated_width, trochanters) = (None, BySide::default());
+    let size = PelvisSize { width, stated_width, depth, legs: unused, trochanters, radius: 0.0 };
     Some(Side::BOTH.map(|side| front + rotation * HipRegression::Harrington.centre(&size, side)))
 }
 
@@ -185,6 +186,7 @@ fn from_spines(
             true => leg_lengths(trajectories, frames, person, assumptions),
             false => BySide::from([f64::NAN; 2]),
         },
+        stated_width: person.measurements.asis_width,
         trochanters: person.measurements.asis_trochanter,
         radius: person.measurements.radius(),
     };

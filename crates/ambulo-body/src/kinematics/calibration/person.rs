@@ -34,6 +34,8 @@ pub struct BodyMeasurements {
     pub shoulder_offset: BySide<Option<f64>>,
     /// Length of the leg from the anterior spine to the medial malleolus.
     pub leg_length: BySide<Option<f64>>,
+    /// Between the anterior spines.
+    pub asis_width: Option<f64>,
     /// From the anterior spine back to the greater trochanter.
     pub asis_trochanter: BySide<Option<f64>>,
     /// Where centres and axes of joints come from.
@@ -95,6 +97,7 @@ impl BodyMeasurements {
             elbow_width: both("ElbowWidth"),
             shoulder_offset: both("ShoulderOffset"),
             leg_length: both("LegLength"),
+            asis_width: metres("InterAsisDistance"),
             asis_trochanter: both("AsisTrocanterDistance"),
             joints: JointCentres::default(),
         }

@@ -158,10 +158,11 @@ fn attempt(
     tried: &mut Vec<String>,
 ) -> Judgement {
     let mut other = Frames::new(problem);
-    problem.solver.budget.begin_again();
+    let left = problem.solver.budget.begin_again();
     run_from(problem, &mut other, outliers, start);
     let after = Judgement::of(problem, &other);
     if after.mean_square >= before.mean_square {
+        problem.solver.budget.go_on_with(left);
         return before;
     }
     *frames = other;
@@ -179,7 +180,7 @@ fn attempt(
 /// Among some frames, the one whose markers agree best with the body in a posture found from nothing. Markers that are
 /// not visible count as far off.
 fn most_agreed(problem: &mut FitProblem<'_>, default: &[f64]) -> Option<usize> {
-    problem.solver.budget.begin_again();
+    let left = problem.solver.budget.begin_again();
     let fresh = Frames::new(problem);
     let total: f64 = problem.weights.iter().sum();
     let part = fresh.count().div_ceil(CANDIDATES);
@@ -196,6 +197,7 @@ fn most_agreed(problem: &mut FitProblem<'_>, default: &[f64]) -> Option<usize> {
             best = Some((square, frame));
         }
     }
+    problem.solver.budget.go_on_with(left);
     best.map(|(_, frame)| frame)
 }
 
@@ -229,7 +231,7 @@ fn rms_of(problem: &FitProblem<'_>, node: usize) -> f64 {
 
 /// A posture of a frame in which a segment is much nearer to its markers, at a lower cost.
 fn unfolded(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, node: usize) -> Option<Vec<f64>> {
-    problem.solver.budget.begin_again();
+    let left = problem.solver.budget.begin_again();
     problem.load(frame, |_| true, |i| frames.path(frame, i));
     let mut folded = frames.posture(frame).to_vec();
     let mut least = problem.fit(&mut folded).cost;
@@ -249,6 +251,7 @@ fn unfolded(problem: &mut FitProblem<'_>, frames: &Frames, frame: usize, node: u
             best = Some(x);
         }
     }
+    problem.solver.budget.go_on_with(left);
     best
 }
 

@@ -62,9 +62,16 @@ impl Budget {
         self.left() == 0
     }
 
-    /// Enough for another first frame, whatever the frames before it took.
-    pub(super) fn begin_again(&mut self) {
+    /// Enough for another first frame, whatever the frames before it took. Returns what they left.
+    pub(super) fn begin_again(&mut self) -> usize {
+        let left = self.left();
         self.granted = self.spent + TO_BEGIN;
+        left
+    }
+
+    /// Leaves as much as there was before [`Budget::begin_again`].
+    pub(super) fn go_on_with(&mut self, left: usize) {
+        self.granted = self.spent + left;
     }
 
     /// The posture of the first frame is found.

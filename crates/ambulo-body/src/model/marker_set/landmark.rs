@@ -1,6 +1,7 @@
 //! Anatomical landmarks of markers.
 
 use super::Segment;
+use super::segment::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use crate::spatial::Vec3;
 
 /// An anatomical landmark, or a joint centre computed by a program.
@@ -182,12 +183,6 @@ pub(super) const TABLE: [Row; 50] = {
         row(L::Knuckle, "knuckle", S::Forearm, [0.0, -1.3, 0.07], "head of the third metacarpal, back of the hand"),
     ]
 };
-
-/// Weight of markers that move by several centimetres on their segment.
-pub(super) const LOOSE_WEIGHT: f64 = 0.02;
-/// Weight of markers that only show the orientation of a segment, and of those on a trunk that bends: their skin moves
-/// by one or two centimetres relative to the bone, three times as far as at the landmarks that define joint centres.
-pub(super) const FOLLOWING_WEIGHT: f64 = 0.1;
 
 impl Landmark {
     /// All landmarks, from the pelvis down to the toes and then from the trunk up.

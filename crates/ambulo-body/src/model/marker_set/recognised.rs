@@ -79,9 +79,9 @@ impl MarkerSet {
 
 impl RecognisedMarkers {
     /// Recognises markers with a set of the laboratory's own, if there is one, and the names that it does not have with
-    /// the built-in sets: first the one that explains most names, then any that explain at least two of the others. Names
-    /// that are written as in a set go before names that only mean the same (`NameIndex`). A landmark that several markers
-    /// show belongs to the marker of the laboratory's set, otherwise to the first.
+    /// the built-in sets: first the one that explains most names, then any that explain at least two of the others.
+    /// Names that are written as in a set go before names that only mean the same (`NameIndex`). A landmark that
+    /// several markers show belongs to the marker of the laboratory's set, otherwise to the first.
     ///
     /// # Errors
     /// Names that no set explains.

@@ -1,8 +1,13 @@
 //! Segments of the full body that markers are fixed to.
 
-use super::landmark::{FOLLOWING_WEIGHT, LOOSE_WEIGHT};
 use crate::model::anthropometry::Dimensions;
 use crate::model::{BodyId, Model, Side};
+
+/// Weight of markers that move by several centimetres on their segment.
+pub(super) const LOOSE_WEIGHT: f64 = 0.02;
+/// Weight of markers that only show the orientation of a segment, and of those on a trunk that bends: their skin moves
+/// by one or two centimetres relative to the bone, three times as far as at the landmarks that define joint centres.
+pub(super) const FOLLOWING_WEIGHT: f64 = 0.1;
 
 /// A segment of the full body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -27,11 +27,9 @@ const PIECE_S: f64 = 0.5;
 pub(super) struct Evidence {
     /// Number of foot strikes.
     pub(super) steps: usize,
-    /// Median way of a foot over the floor from one stance to its next one [m]; where no foot has two stances, twice the
-    /// median step forward from a stance of one foot to the next one of the other; `None` with less.
+    /// Median way of a foot over the floor from one stance to its next one [m]; where no foot has two stances, twice
+    /// the median step forward from a stance of one foot to the next one of the other; `None` with less.
     pub(super) stride_m: Option<f64>,
-    /// Median time from foot off to the next strike of the same foot [s]; `None` if no swing is complete.
-    pub(super) swing_s: Option<f64>,
     /// Path of the pelvis over the floor [m].
     pub(super) path_m: f64,
     /// Mean speed along this path [m/s].
@@ -92,7 +90,6 @@ impl Evidence {
         Some(Evidence {
             steps: footfalls.falls.iter().filter(|fall| fall.strike_s.is_some()).count(),
             stride_m,
-            swing_s: swing(footfalls),
             path_m,
             speed_m_s: path_m / ((instants.len() - 1) as f64 * grid.step_s),
             duty_factor: duty_factor(footfalls),
@@ -152,16 +149,6 @@ fn heading(forward: Vec3, up: Vec3) -> f64 {
     let reference = if up.x.abs() < 0.5 { Vec3::x() } else { Vec3::z() };
     let ahead = (reference - up * reference.dot(&up)).normalize();
     atan2(forward.dot(&up.cross(&ahead)), forward.dot(&ahead))
-}
-
-/// Median time from foot off to the next strike of the same foot [s].
-fn swing(footfalls: &Footfalls) -> Option<f64> {
-    let mut times = Vec::new();
-    for side in Side::BOTH {
-        let falls: Vec<&Footfall> = footfalls.of(side).collect();
-        times.extend(falls.windows(2).filter_map(|pair| Some(pair[1].strike_s? - pair[0].off_s?)));
-    }
-    median(times)
 }
 
 /// Median distance between the places of a foot in the middle of a stance and of its next one [m], or twice the

@@ -10,16 +10,15 @@
 //! | `run` | steps with duty factor below one half, so that the stances of the two feet do not overlap (Alexander 1989), faster than 0.3 √(g L); slower ones with a flight are a `jump` |
 //! | `stairs_up`, `stairs_down` | steps that rise or fall by more than 0.08 m each, on average |
 //! | `turn` | steps while the pelvis turns by more than 45 degrees |
-//! | `walk` | steps that carry the body further than L/2 over the floor, with strides longer than 0.3 L, without a flight and with swings shorter than π√(2L/3g), or over the belt of a treadmill; in a recording of a part of a stride, a pelvis that travels faster than 0.15 √(g L) at an even height |
+//! | `walk` | steps that carry the body further than L/2 over the floor, with strides longer than 0.3 L and without a flight, or over the belt of a treadmill; in a recording of a part of a stride, a pelvis that travels faster than 0.15 √(g L) at an even height |
 //! | `sit_to_stand` | the pelvis rises or falls by a quarter of L, and at its lowest the mass centre is behind both feet: a seat carries it |
 //! | `squat` | the pelvis falls by a tenth of L while the knees bend by more than 30 degrees, with the mass centre over the feet |
 //! | `stand` | the pelvis stays within a tenth of L in height, and does not travel |
 //! | `other` | everything else, and bodies without feet |
 //!
 //! Sources: Alexander, "Optimization and gaits in the locomotion of vertebrates", Physiol Rev 69:1199, 1989 (duty
-//! factor); Mochon, McMahon, "Ballistic walking", J Biomech 13:49, 1980 (unverified; swing); ISO 21542 and building codes
-//! (risers of 0.10 to 0.22 m). A recording with several activities gets the first of this order.
-//! Pinned by: tests/activity.rs
+//! factor); ISO 21542 and building codes (risers of 0.10 to 0.22 m). A recording with several activities gets the first
+//! of this order. Pinned by: tests/activity.rs
 
 mod evidence;
 
@@ -49,10 +48,6 @@ const LEAST_SPEED: f64 = 0.15;
 /// From one stance of a foot to its next one it moves further than this share of the leg length in a walk: two steps of
 /// 0.15 L, 0.13 m of an adult. Feet that only lose and take load do not move.
 const LEAST_STRIDE: f64 = 0.3;
-/// Longest swing of a walk as a share of √(L/g): half the period of a thin rod that hangs from the hip, π √(2/3), 0.79 s
-/// for an adult. In walking the leg swings about as a pendulum does, or faster (Mochon and McMahon 1980); a leg that is
-/// held up for longer is balanced on the other one.
-const LONGEST_SWING: f64 = 2.565;
 /// Slower than this share of √(g L), 0.9 m/s for an adult, nobody runs: people jog from 1.5 m/s on. Leaps and landings
 /// are slower.
 const SLOWEST_RUN: f64 = 0.3;
@@ -213,7 +208,6 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
     let part_of_a_stride = found.steps < 2 && travels && !lowers && !flies;
     // The person does not advance while both feet stay in place, however the pelvis sways.
     let advances = found.stride_m.is_none_or(|stride_m| stride_m > LEAST_STRIDE * leg_m);
-    let balances = found.swing_s.is_some_and(|swing_s| swing_s > LONGEST_SWING * (leg_m / gravity).sqrt());
     let steps = found.steps >= 2 && advances && found.path_m > LEAST_PATH * leg_m || part_of_a_stride;
     if steps {
         let is_faster_than = |share: f64| found.speed_m_s > share * (leg_m * gravity).sqrt();
@@ -230,7 +224,6 @@ fn kind(found: &Evidence, leg_m: f64, gravity: f64) -> ActivityKind {
             _ if found.rise_per_step_m > LEAST_RISER_M => ActivityKind::StairsUp,
             _ if found.rise_per_step_m < -LEAST_RISER_M => ActivityKind::StairsDown,
             _ if found.turn_rad > TURN_RAD => ActivityKind::Turn,
-            _ if balances => ActivityKind::Other,
             _ => ActivityKind::Walk,
         };
     }

@@ -3,8 +3,8 @@
 //! Two criteria must agree, so that crossed limbs (a scissor gait, arms folded in a standing trial) are not reported:
 //!
 //! - the right marker of the pair is to the left of the left one ([`super::sides`]);
-//! - both are nearer to the neighbouring joint of the other side than to the one of their own side: an ankle to the knee, a
-//!   wrist to the elbow. A forearm cannot be as long as the distance to the other elbow.
+//! - both are nearer to the neighbouring joint of the other side than to the one of their own side: an ankle to the
+//!   knee, a wrist to the elbow. A forearm cannot be as long as the distance to the other elbow.
 //!
 //! Pairs are tested from the pelvis down and from the shoulders out, so that a neighbour is correct before it is used.
 

@@ -198,8 +198,7 @@ impl Measure {
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::FrozenPoints => {
-                "share of the time in which keypoints of a moving leg keep their distances, as if it were one rigid \
-                 piece"
+                "share of the time in which keypoints of a moving leg keep their distances like those of a rigid body"
             }
             Measure::AxialRotation => "standard deviation of axial rotation of the thighs, from errors of keypoints",
             Measure::DerivedPlace => {

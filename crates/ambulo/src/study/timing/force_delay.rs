@@ -1,8 +1,8 @@
 //! The delay between force plates and motion.
 //!
 //! The measured forces are shifted by s and compared with the forces that the motion requires, over the frames in which
-//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are smallest where forces and motion
-//! are synchronous:
+//! every loaded foot is measured. The residual force F(s) and the residual moment M(s) about the root [rms] are
+//! smallest where forces and motion are synchronous:
 //!
 //!   r = argmin F²(s)/F²(0) + M²(s)/M²(0),   |s| ≤ 0.15 s
 //!
