@@ -39,9 +39,8 @@ enum Numbers {
     Times,
 }
 
-const PAGES: [Page; 12] = [
+const PAGES: [Page; 11] = [
     Page { name: "VALIDATION", command: "validate", numbers: Numbers::Results },
-    Page { name: "TWINS", command: "twins", numbers: Numbers::Results },
     Page { name: "GROUND_FIT", command: "fit-ground", numbers: Numbers::Results },
     Page { name: "WALK_BANDS", command: "walk-bands", numbers: Numbers::Results },
     Page { name: "OPTIMAL_WALK", command: "optimal-walk", numbers: Numbers::Results },

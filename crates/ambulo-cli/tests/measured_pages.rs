@@ -3,7 +3,6 @@
 //! | page | sample |
 //! |---|---|
 //! | VALIDATION | errors of the forces of each foot, 12 trials |
-//! | TWINS | moments of a recording whose plates were taken away |
 //! | GROUND_FIT | the fitted numbers, figures of seven straight walks |
 //! | WALK_BANDS | peaks of free walking |
 //! | OPTIMAL_WALK | slip and knee of three walks |
@@ -193,47 +192,6 @@ fn predicted_forces_have_the_errors_of_the_pages() {
         }
     }
     assert!(compared >= 280, "{compared}");
-}
-
-/// Squares of the differences of moments in a stance, per body mass, and their number [N²m²/kg², 1].
-fn squares([a, b]: [&Table; 2], column: &str, [from, to]: [f64; 2], mass_kg: f64) -> [f64; 2] {
-    let values = [a, b].map(|table| table.column(column).unwrap());
-    let times = a.times().unwrap();
-    let inside = (0..times.len()).filter(|row| (from..=to).contains(&times[*row]));
-    inside
-        .fold([0.0; 2], |[sum, count], row| [sum + ((values[0][row] - values[1][row]) / mass_kg).powi(2), count + 1.0])
-}
-
-#[test]
-fn a_leg_whose_plate_was_taken_away_has_the_moments_of_the_page() {
-    let Some(data) = shared_data::data() else { return };
-    let bench = Workbench::empty("measured_pages_taken");
-    let path = |name: &str| data.join("biomechzoo-HC032A").join(name).display().to_string();
-    let (walk, standing) = (path("HC032A03.c3d"), path("HC032A01.c3d"));
-    let forces = |more: &[&str]| {
-        let words = ["forces", &walk, "--static", &standing, "--keep", "moments,stances", "--json", "-o", "out"];
-        let summary: Value = serde_json::from_str(&bench.run(&[&words[..], more].concat()).done().stdout).unwrap();
-        (bench.table("out/moments.sto"), number(&summary["mass_kg"]))
-    };
-    let (whole, mass_kg) = forces(&[]);
-    let stances = bench.text("out/stances.csv");
-    let cells: Vec<Vec<&str>> = stances.lines().skip(1).map(|line| line.split(',').collect()).collect();
-    let measured: Vec<&Vec<&str>> =
-        cells.iter().filter(|row| row[3].starts_with("plate ") && !row[3].contains('+')).collect();
-    let off = |row: &&Vec<&str>| forces(&["--plate", &format!("{}=off", row[3].trim_start_matches("plate "))]).0;
-    let taken: Vec<Table> = measured.iter().map(|row| off(row)).collect();
-    let page = MeasuredPage::read("TWINS");
-    let printed = page.row("## Joint moments of a leg", &["HC032A03"]);
-    assert_eq!(printed[1], measured.len().to_string());
-    for (cell, joint) in printed[2..].iter().zip(["ankle_angle", "knee_angle", "hip_flexion", "hip_adduction"]) {
-        let mean_squares = measured.iter().zip(&taken).map(|(row, taken)| {
-            let span = [row[1], row[2]].map(|time| time.parse().unwrap());
-            let [sum, count] = squares([&whole, taken], &format!("{joint}_{}_moment", row[0]), span, mass_kg);
-            sum / count
-        });
-        let pooled = (mean_squares.sum::<f64>() / measured.len() as f64).sqrt();
-        page.compare(&format!("HC032A03, {joint}"), cell, pooled);
-    }
 }
 
 #[test]
