@@ -198,7 +198,8 @@ fn plates_keep_the_numbers_of_the_file() {
 fn a_standing_trial_must_show_the_same_person_standing_still() {
     let bench = laboratory("static");
     forces(&bench, "walk.c3d", &["--static", "none.c3d"]).refused(&["none.c3d: there is no such file"]);
-    forces(&bench, "walk.c3d", &["--static", "walk.mot"]).refused(&["walk.mot: expected markers (.c3d, .trc or .csv)"]);
+    forces(&bench, "walk.c3d", &["--static", "walk.mot"])
+        .refused(&["walk.mot: found a file `.mot`", "expected markers (.c3d, .trc or .csv)"]);
     forces(&bench, "walk.c3d", &["--static", "walk.c3d"]).warned(&[
         "in the standing trial the markers move",
         "0 of 437 frames",
@@ -337,7 +338,7 @@ fn other_files_are_rejected_by_their_extension() {
     forces(&bench, "walk.xyz", &[]).refused(&["unknown kind of recording `.xyz`", kinds]);
     forces(&bench, "none.c3d", &[]).refused(&["none.c3d: there is no such file", "hint: "]);
     forces(&bench, "walk.c3d", &["--max-gap", "-1"]).refused(&["'-1' for '--max-gap <S>'", "zero or more"]);
-    forces(&bench, "walk.c3d", &["--from", "50"]).refused(&["walk.c3d: the range from 50 s", "hint: "]);
+    forces(&bench, "walk.c3d", &["--from", "50"]).refused(&["walk.c3d: the start of the range, 50 s", "hint: "]);
     bench.run(&["convert", "walk.c3d", "walk"]).refused(&["has no extension", ".trc, .csv"]);
 }
 

@@ -240,7 +240,7 @@ fn peaks_and_impulse_of_half_a_sine() {
     assert!((impulse - 0.6 * std::f64::consts::FRAC_2_PI).abs() < allowed, "{impulse}");
     // What unloads the medial side counts for nothing, a gap makes the stance unknown.
     let lowered: Vec<f64> = curve.iter().map(|x| -x).collect();
-    assert_eq!(stance_load(&lowered, 0.6).unwrap()[2], 0.0);
+    assert!(stance_load(&lowered, 0.6).unwrap()[2].abs() < f64::EPSILON);
     assert_eq!(stance_load(&[0.1, f64::NAN, 0.3], 0.6), None);
     assert_eq!(stance_load(&[0.1], 0.6), None);
     // Peaks belong to their halves.

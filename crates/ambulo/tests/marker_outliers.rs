@@ -234,7 +234,7 @@ fn damaged(subject: &Subject, count: usize, seed: u64) -> MarkerRecording {
     wild
 }
 
-/// Most linear solves of a fit: those of the budget, and of the last step, which tries up to 16.
+/// Most linear solves of one attempt: those of the budget, and of the last step, which tries up to 16.
 fn most_solves(frames: usize) -> usize {
     32 * frames + 3200 + 16
 }
@@ -281,8 +281,10 @@ fn frames_whose_fit_takes_too_many_steps_are_reported() {
         // A frame whose fit was stopped has no coordinates, and no distance that would pass for a result.
         let stopped = (0..frames).filter(|&frame| fit.rms_m[frame].is_nan()).count();
         assert_eq!(stopped, empty, "seed {seed}: frames without values are those without a distance");
-        assert!(fit.solves <= most_solves(frames), "seed {seed}: {} solves", fit.solves);
+        // From the first frame, from the best one, and all frames together.
+        assert!(fit.solves <= 3 * most_solves(frames), "seed {seed}: {} solves", fit.solves);
         assert!(empty < frames / 2, "seed {seed}: {empty} of {frames} frames without values");
-        assert!(findings.has(Code::MarkersUnfitted), "seed {seed}: {:?}", findings.as_slice());
+        let is_told = [Code::MarkersUnfitted, Code::MarkersRefitted].iter().any(|code| findings.has(*code));
+        assert!(is_told, "seed {seed}: {:?}", findings.as_slice());
     }
 }

@@ -225,7 +225,8 @@ fn means(words: &str, legs: &Legs) -> [Agreement; 3] {
 
 /// All walks with a hip centre, computed once for all tests; `None` without data.
 fn walks(hip: HipRegression) -> Option<&'static [(&'static str, Walk)]> {
-    static OF_HIPS: [OnceLock<Option<Vec<(&'static str, Walk)>>>; 2] = [OnceLock::new(), OnceLock::new()];
+    type Walks = OnceLock<Option<Vec<(&'static str, Walk)>>>;
+    static OF_HIPS: [Walks; 2] = [OnceLock::new(), OnceLock::new()];
     let all = OF_HIPS[usize::from(hip != HipRegression::default())].get_or_init(|| {
         let folder = shared_data::data()?;
         Some(TRIALS.iter().map(|trial| (trial.walk, trial.run(&folder, hip))).collect())

@@ -141,7 +141,7 @@ fn nameless_markers_get_segment_and_place_and_the_floor_gets_none() {
         assert!(!found.contains_key(&floor.name), "{found:?}");
         for marker in on_body {
             let own = found.get(&marker.name).unwrap_or_else(|| panic!("{} of {:?}", marker.name, found.keys()));
-            assert_eq!(own.body, marker.body, "{}", marker.name);
+            assert_eq!(own.body, marker.body, "{} {:?} {:?}", marker.name, own, standing.is_some());
             // The fit of a frame ends 0.01 mm from the markers.
             assert!((own.location - marker.location).norm() < 1e-4, "{}: {}", marker.name, own.location);
         }
@@ -152,7 +152,7 @@ fn nameless_markers_get_segment_and_place_and_the_floor_gets_none() {
 fn a_name_decides_unless_the_motion_contradicts_it() {
     let made = made();
     let named = |name: &str, like: &str| {
-        let known = RecognisedMarkers::with(None, ["RTHAP", "RTIAP", "LASI", "RASI", like].into_iter()).unwrap();
+        let known = RecognisedMarkers::with(None, ["RTHAP", "RTIAP", "LASI", "RASI", like]).unwrap();
         let meaning = known.markers.into_iter().find(|marker| marker.name == like).unwrap();
         NamedMarker { name: name.to_owned(), ..meaning }
     };

@@ -25,7 +25,7 @@ struct KnownBody {
 /// Sources of a body in addition to the standing trial.
 #[derive(Debug)]
 enum MadeFrom {
-    BuiltIn { person: PersonMeasurements, set: Option<MarkerSet> },
+    BuiltIn { person: Box<PersonMeasurements>, set: Option<MarkerSet> },
     Model { model: Model, mass: Option<f64> },
 }
 
@@ -34,7 +34,7 @@ impl MadeFrom {
     fn of(body: &BodySource<'_>) -> Option<MadeFrom> {
         match *body {
             BodySource::BuiltIn { person, set } => {
-                Some(MadeFrom::BuiltIn { person: person.clone(), set: set.cloned() })
+                Some(MadeFrom::BuiltIn { person: Box::new(person.clone()), set: set.cloned() })
             }
             BodySource::Model { model, mass, protocol: None } => Some(MadeFrom::Model { model: model.clone(), mass }),
             BodySource::Model { protocol: Some(_), .. } | BodySource::Calibrated(_) => None,
@@ -44,7 +44,7 @@ impl MadeFrom {
     fn is_of(&self, body: &BodySource<'_>) -> bool {
         match (self, body) {
             (MadeFrom::BuiltIn { person, set }, BodySource::BuiltIn { person: own, set: own_set }) => {
-                person == *own && set.as_ref() == *own_set
+                **person == **own && set.as_ref() == *own_set
             }
             (MadeFrom::Model { model, mass }, BodySource::Model { model: own, mass: own_mass, protocol: None }) => {
                 mass == own_mass && model == *own

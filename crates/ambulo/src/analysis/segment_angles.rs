@@ -120,8 +120,7 @@ impl Knee {
 impl Segment {
     /// Whether its markers determine how it turns about the joint centre.
     fn is_determined(&self) -> bool {
-        let places: Vec<Vec3> = self.markers.iter().map(|(_, place)| *place).collect();
-        arm(&places) > LEAST_ARM_M
+        arm(self.markers.iter().map(|(_, place)| *place)) > LEAST_ARM_M
     }
 
     /// Rotation of the segment about a joint centre in the world; `None` if the visible markers do not determine it.
@@ -130,17 +129,16 @@ impl Segment {
             let arm = recording.markers[*number].positions[frame] - center;
             arm.iter().all(|x| x.is_finite()).then_some((*place, arm))
         });
-        let (places, arms): (Vec<Vec3>, Vec<Vec3>) = seen.unzip();
-        if arm(&places) <= LEAST_ARM_M {
+        if arm(seen.clone().map(|(place, _)| place)) <= LEAST_ARM_M {
             return None;
         }
         let mut turned = start;
         for _ in 0..STEPS {
             let (mut stiffness, mut moment) = (Mat3::zeros(), Vec3::zeros());
-            for (place, arm) in places.iter().zip(&arms) {
+            for (place, arm) in seen.clone() {
                 let u = turned * place;
                 stiffness += Mat3::identity() * u.norm_squared() - u * u.transpose();
-                moment += u.cross(arm);
+                moment += u.cross(&arm);
             }
             turned = rotation(&(stiffness.try_inverse()? * moment)) * turned;
         }
@@ -150,9 +148,8 @@ impl Segment {
 
 /// Least root of the sum of squared distances of points from a line through the origin [m]: the line along which they
 /// lie best is found by iterating A⁻¹, with A = Σ (|a|² 1 - a aᵀ). Zero for points on a line.
-fn arm(places: &[Vec3]) -> f64 {
-    let inertia =
-        places.iter().fold(Mat3::zeros(), |sum, a| sum + Mat3::identity() * a.norm_squared() - a * a.transpose());
+fn arm(places: impl Iterator<Item = Vec3>) -> f64 {
+    let inertia = places.fold(Mat3::zeros(), |sum, a| sum + Mat3::identity() * a.norm_squared() - a * a.transpose());
     let Some(inverse) = inertia.try_inverse() else { return 0.0 };
     let mut along = Vec3::new(0.3, 0.9, 0.2);
     for _ in 0..STEPS {

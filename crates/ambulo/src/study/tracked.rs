@@ -50,16 +50,14 @@ pub(super) fn tracked(
     Ok(Found { analysis, prediction: Some(ground), measured_events, loads, processing })
 }
 
-/// Mass centres of the last bodies of the arms in the axes of the trunk, in all frames [m].
+/// Mass centres of the last bodies of the arms in the axes of the trunk, in all frames [m]: those at least two joints
+/// from the trunk, which a head is not.
 fn hands(model: &Model, trajectory: &Trajectory) -> Vec<Vec3> {
     let Some(trunk) = model.anatomy().trunk() else { return Vec::new() };
     let parent = |id: BodyId| model.bodies()[id.index()].joint.parent;
-    let is_on_trunk = |id: &BodyId| {
-        model.anatomy().body_side(*id).is_some()
-            && std::iter::successors(parent(*id), |id| parent(*id)).any(|id| id == trunk)
-    };
+    let is_of_arm = |id: &BodyId| std::iter::successors(parent(*id), |id| parent(*id)).skip(1).any(|id| id == trunk);
     let is_last = |id: &BodyId| model.bodies().iter().all(|body| body.joint.parent != Some(*id));
-    let hands: Vec<BodyId> = model.body_ids().filter(is_last).filter(is_on_trunk).collect();
+    let hands: Vec<BodyId> = model.body_ids().filter(is_last).filter(is_of_arm).collect();
     let mut places = Vec::new();
     each_body_motion(model, trajectory, |_, bodies| {
         let trunk = bodies[trunk.index()].pose.inverse();

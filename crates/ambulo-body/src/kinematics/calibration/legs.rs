@@ -206,8 +206,7 @@ impl Finder<'_> {
             }
             assumptions.push(format!(
                 "the {side} ankle has no marker: its centre is assumed where a usual foot has it, by the markers of \
-                 heel \
-                 and forefoot"
+                 heel and forefoot"
             ));
             return Some(Method::OfFoot(front));
         }
