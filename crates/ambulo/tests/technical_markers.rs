@@ -141,9 +141,12 @@ fn nameless_markers_get_segment_and_place_and_the_floor_gets_none() {
         assert!(!found.contains_key(&floor.name), "{found:?}");
         for marker in on_body {
             let own = found.get(&marker.name).unwrap_or_else(|| panic!("{} of {:?}", marker.name, found.keys()));
-            assert_eq!(own.body, marker.body, "{} {:?} {:?}", marker.name, own, standing.is_some());
-            // The fit of a frame ends 0.01 mm from the markers.
-            assert!((own.location - marker.location).norm() < 1e-4, "{}: {}", marker.name, own.location);
+            assert_eq!(own.body, marker.body, "{}, standing: {}", marker.name, standing.is_some());
+            // The fit of a frame ends 0.01 mm from the markers. Without a standing trial the places come from the walk,
+            // in which only bent knees show how thighs without markers turn.
+            let allowed_m = if standing.is_some() { 1e-4 } else { 0.02 };
+            let off_m = (own.location - marker.location).norm();
+            assert!(off_m < allowed_m, "{}: {off_m} m, standing: {}", marker.name, standing.is_some());
         }
     }
 }

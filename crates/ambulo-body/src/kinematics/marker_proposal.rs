@@ -35,7 +35,7 @@ const FRAMES: usize = 60;
 const SPREAD_WEIGHT: f64 = 3.0;
 /// A landmark is proposed within this distance of its usual position [m]: on a calibrated body, on a body of mean build
 /// that was fitted to markers, and on a standing one.
-const NEAR_M: [f64; 3] = [0.05, 0.08, 0.12];
+const NEAR_M: [f64; 3] = [0.06, 0.08, 0.12];
 /// Known markers that suffice to fit a body of mean build, and their largest distance from it [m]: landmarks of people
 /// of one stature differ by 20 to 30 mm.
 const LEAST_KNOWN: usize = 8;
