@@ -3,10 +3,10 @@
 //!
 //! | part | method |
 //! |---|---|
-//! | segments | pelvis, thighs and shanks, each where its own markers are ([`segments`]) |
-//! | hip centre | symmetrical centre of rotation, refined to the ball joint that fits the markers of the thigh ([`hip`]) |
-//! | knee axis | symmetrical axis of rotation ([`knee`]) |
-//! | cross-talk | how far varus follows flexion, and the turn of the knee axis that makes it least ([`cross_talk`]) |
+//! | segments | pelvis, thighs and shanks, each where its own markers are (`segments`) |
+//! | hip centre | symmetrical centre of rotation, refined to the ball joint that fits the markers of the thigh (`hip`) |
+//! | knee axis | symmetrical axis of rotation (`knee`) |
+//! | cross-talk | how far varus follows flexion, and the turn of the knee axis that makes it least (`cross_talk`) |
 //!
 //! A joint that the movement does not show is refused, with the range that was found and the range that is needed.
 //!

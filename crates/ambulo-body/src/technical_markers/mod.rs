@@ -19,7 +19,7 @@
 //! have the weight of loose markers: they help where the others are lost.
 //!
 //! Skin slides on the bone by 10 to 30 mm at the thigh, less elsewhere (Leardini et al. 2005, Gait Posture 21:212;
-//! unverified): a marker that moves further with no segment than [`FARTHEST_M`] is on no segment.
+//! unverified): a marker that moves further with no segment than `FARTHEST_M` is on no segment.
 //!
 //! Not handled: a marker that changes its segment; loads that swing.
 //! Pinned by: tests/technical_markers.rs
