@@ -1,0 +1,1 @@
+//! Tests of the muscles against OpenSim 4.6, closed forms and identities.
