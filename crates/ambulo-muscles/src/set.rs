@@ -156,6 +156,8 @@ pub struct MuscleParameters {
     pub max_contraction_velocity: f64,
     /// Greatest angle between fibres and tendon, which limits how short the fibres get [rad].
     pub max_pennation: f64,
+    /// Whether the tendon keeps its slack length whatever the force (OpenSim's `ignore_tendon_compliance`).
+    pub rigid_tendon: bool,
     /// Least and greatest activation: in OpenSim the controls of the muscle.
     pub activation_range: [f64; 2],
     /// Curves of force against length and velocity.
@@ -202,7 +204,7 @@ impl Default for ThelenCurves {
 }
 
 /// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties; the defaults are those of
-/// OpenSim.
+/// OpenSim. In a set from a document they are as OpenSim uses them: it changes some of the stated ones, by the damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MillardCurves {
     /// Active force against length (`ActiveForceLengthCurve`): least, transition and greatest length [optimal fibre
