@@ -3,8 +3,10 @@
 //! | module | duty |
 //! |---|---|
 //! | [`set`] | muscles, wraps and actuators of a model |
+//! | [`wrap`] | paths over cylinders and spheres |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
 
 pub mod set;
+pub mod wrap;
