@@ -188,23 +188,15 @@ pub struct ThelenCurves {
     pub velocity_shape: f64,
     /// Greatest force of a lengthening fibre, in multiples of the isometric one (`Flen`).
     pub lengthening_force: f64,
+    /// Share of the greatest lengthening force from which the curve continues as a straight line
+    /// (`fv_linear_extrap_threshold`).
+    pub straight_from: f64,
 }
 
-impl Default for ThelenCurves {
-    fn default() -> ThelenCurves {
-        ThelenCurves {
-            tendon_strain_at_max: 0.04,
-            fiber_strain_at_max: 0.6,
-            active_shape: 0.45,
-            passive_shape: 5.0,
-            velocity_shape: 0.25,
-            lengthening_force: 1.4,
-        }
-    }
-}
-
-/// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties; the defaults are those of
-/// OpenSim. In a set from a document they are as OpenSim uses them: it changes some of the stated ones, by the damping.
+/// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties and as OpenSim uses them: for
+/// a damped muscle (`fiber_damping` at least 0.001) or a rigid tendon the least active value and both slopes at the
+/// greatest velocities are 0, whatever the file has; otherwise they are at least .1 and half the slopes near these
+/// velocities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MillardCurves {
     /// Active force against length (`ActiveForceLengthCurve`): least, transition and greatest length [optimal fibre
@@ -223,10 +215,25 @@ pub struct MillardCurves {
     pub fiber_damping: f64,
 }
 
+impl Default for ThelenCurves {
+    fn default() -> ThelenCurves {
+        ThelenCurves {
+            tendon_strain_at_max: 0.04,
+            fiber_strain_at_max: 0.6,
+            active_shape: 0.45,
+            passive_shape: 5.0,
+            velocity_shape: 0.25,
+            lengthening_force: 1.4,
+            straight_from: 0.95,
+        }
+    }
+}
+
 impl Default for MillardCurves {
+    /// The defaults of OpenSim for a damped muscle, which it uses unless `fiber_damping` is below 0.001.
     fn default() -> MillardCurves {
         MillardCurves {
-            active: [0.47 - 0.0259, 0.73, 1.8123, 0.8616, 0.1],
+            active: [0.47 - 0.0259, 0.73, 1.8123, 0.8616, 0.0],
             velocity: [0.0, 0.25, 5.0, 0.0, 0.15, 1.4, 0.6, 0.9],
             passive: [Some(0.0), Some(0.7), None, None, None],
             tendon: [Some(0.049), None, None, None],

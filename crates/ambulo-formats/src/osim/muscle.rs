@@ -71,8 +71,9 @@ pub struct OsimMuscleParameters {
 /// Parameters of the curves of a muscle, in the order of the properties of OpenSim.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OsimMuscleCurves {
-    /// `FmaxTendonStrain`, `FmaxMuscleStrain`, `KshapeActive`, `KshapePassive`, `Af`, `Flen`.
-    Thelen2003([f64; 6]),
+    /// `FmaxTendonStrain`, `FmaxMuscleStrain`, `KshapeActive`, `KshapePassive`, `Af`, `Flen`,
+    /// `fv_linear_extrap_threshold`.
+    Thelen2003([f64; 7]),
     /// The four curves of a `Millard2012EquilibriumMuscle` and its damping.
     Millard2012 {
         /// `ActiveForceLengthCurve`.
@@ -108,13 +109,14 @@ pub(super) const MILLARD: &str = "Millard2012EquilibriumMuscle";
 pub(super) const ACTUATOR: &str = "CoordinateActuator";
 
 /// Properties of a Thelen muscle with their defaults.
-pub(super) const THELEN_SHAPE: [(&str, f64); 6] = [
+pub(super) const THELEN_SHAPE: [(&str, f64); 7] = [
     ("FmaxTendonStrain", 0.04),
     ("FmaxMuscleStrain", 0.6),
     ("KshapeActive", 0.45),
     ("KshapePassive", 5.0),
     ("Af", 0.25),
     ("Flen", 1.4),
+    ("fv_linear_extrap_threshold", 0.95),
 ];
 pub(super) const ACTIVE_CURVE: &str = "ActiveForceLengthCurve";
 /// Properties of the active curve with their defaults; the first is the length at which the force begins, less the width
