@@ -1,0 +1,82 @@
+//! Statements about muscles in a job.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// How muscle forces are found, by static optimisation (`docs/MUSCLES.md`). The defaults are those of OpenSim's tool.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MuscleStatements {
+    /// Motors that help the muscles, an OpenSim `ForceSet` (`.xml`). By default each coordinate has one.
+    pub reserves: Option<PathBuf>,
+    /// Electromyograms of the recording in a table of their own (`.sto`, `.mot`, `.csv`). By default the analog
+    /// channels of a C3D are used.
+    pub emg: Option<PathBuf>,
+    /// How paths over surfaces are found.
+    pub wraps: WrapRule,
+    /// How the pennation of muscles of Millard's kind is found.
+    pub pennation: PennationRule,
+    /// Exponent of the activations in the sum that is least.
+    pub exponent: f64,
+    /// Weight of each activation in that sum, by the name of the muscle; 1 where none is given.
+    pub weights: BTreeMap<String, f64>,
+    /// Distance between the contacts of the two condyles of a knee [m]. By default it follows from the width of the
+    /// knee.
+    pub condyles_m: Option<f64>,
+}
+
+/// How the path of a muscle over surfaces is found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum WrapRule {
+    /// The shortest path, so that moment arms are derivatives of the length.
+    #[default]
+    Exact,
+    /// As OpenSim finds it, for comparison.
+    OpenSim,
+}
+
+/// How the pennation of a muscle of Millard's kind is found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum PennationRule {
+    /// As OpenSim's static optimisation computes it: nearly none.
+    #[default]
+    OpenSim,
+    /// From the length of the fibre in metres.
+    Fibre,
+}
+
+impl MuscleStatements {
+    /// The exponent of OpenSim's tool.
+    pub const EXPONENT: f64 = 2.0;
+}
+
+impl WrapRule {
+    /// The rules with their names.
+    pub const ALL: [(&'static str, WrapRule); 2] = [("exact", WrapRule::Exact), ("opensim", WrapRule::OpenSim)];
+}
+
+impl PennationRule {
+    /// The rules with their names.
+    pub const ALL: [(&'static str, PennationRule); 2] =
+        [("opensim", PennationRule::OpenSim), ("fibre", PennationRule::Fibre)];
+}
+
+impl Default for MuscleStatements {
+    fn default() -> MuscleStatements {
+        MuscleStatements {
+            reserves: None,
+            emg: None,
+            wraps: WrapRule::default(),
+            pennation: PennationRule::default(),
+            exponent: MuscleStatements::EXPONENT,
+            weights: BTreeMap::new(),
+            condyles_m: None,
+        }
+    }
+}
