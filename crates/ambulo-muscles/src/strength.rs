@@ -9,7 +9,7 @@
 //! α′ = α with [`Pennation::Right`]. OpenSim 4.6 gives the pennation model of `Millard2012EquilibriumMuscle` the
 //! normalised fibre length where it expects metres, so that sin α′ = h / (l / l₀): practically no pennation.
 //! [`Pennation::AsOpenSim`] repeats that for Millard's muscles. A fibre at its least length has no active force; the
-//! least length is the greater of h / sin(arccos .1) and, for Millard's curves, the least active length.
+//! least length is the greater of h / sin α_max and, for Millard's curves, the least active length.
 //!
 //! | code | symbol | unit |
 //! |---|---|---|
@@ -17,17 +17,13 @@
 //!
 //! Source: the call of OpenSim's `StaticOptimizationTarget::prepareToOptimize`
 //! (`calcInextensibleTendonActiveFiberForce`); MuscleFixedWidthPennationModel.cpp.
-//! Not handled: a `maximum_pennation_angle` other than OpenSim's default, arccos .1; compliant tendons; passive force.
+//! Not handled: compliant tendons; passive force.
 //! Pinned by: tests/strength.rs
 
-use crate::body::numerics::elementary::sin;
+use crate::body::numerics::elementary::{sin, sin_cos};
 use crate::curves::ForceCurves;
 use crate::set::{MuscleCurves, MuscleParameters};
 
-/// Sine of the greatest pennation, arccos .1.
-const MOST_SINE: f64 = 0.994_987_437_106_62;
-/// Cosine of the greatest pennation.
-const LEAST_COSINE: f64 = 0.1;
 /// Least fibre length of a muscle without pennation [optimal fibre lengths], as in OpenSim.
 const LEAST_LENGTH: f64 = 0.01;
 
@@ -51,6 +47,8 @@ pub struct Strength {
     max_velocity: f64,
     /// h, the width of the parallelogram [m].
     width: f64,
+    /// Sine and cosine of the greatest pennation.
+    most_pennation: (f64, f64),
     /// Least fibre length, and its component along the tendon [m].
     least: [f64; 2],
     normalised_pennation: bool,
@@ -62,7 +60,8 @@ impl Strength {
     pub fn new(parameters: &MuscleParameters, curves: &ForceCurves, pennation: Pennation) -> Strength {
         let optimal_length = parameters.optimal_fiber_length;
         let width = optimal_length * sin(parameters.pennation_at_optimal);
-        let pennated = if width > 0.0 { width / MOST_SINE } else { LEAST_LENGTH * optimal_length };
+        let most_pennation = sin_cos(parameters.max_pennation);
+        let pennated = if width > 0.0 { width / most_pennation.0 } else { LEAST_LENGTH * optimal_length };
         let least = pennated.max(curves.least_active_length() * optimal_length);
         let is_millard = matches!(parameters.curves, MuscleCurves::Millard2012(_));
         Strength {
@@ -71,6 +70,7 @@ impl Strength {
             slack_length: parameters.tendon_slack_length,
             max_velocity: parameters.max_contraction_velocity * optimal_length,
             width,
+            most_pennation,
             least: [least, (least * least - width * width).max(0.0).sqrt()],
             normalised_pennation: is_millard && pennation == Pennation::AsOpenSim,
         }
@@ -100,12 +100,13 @@ impl Strength {
         self.max_force * activation * curves.active(normalised) * curves.velocity(velocity, activation) * cosine
     }
 
-    /// Cosine of the pennation of a fibre of this length, between arccos 1 and arccos .1.
+    /// Cosine of the pennation of a fibre of this length, limited by the greatest pennation.
     fn cosine_of(&self, fiber: f64) -> f64 {
-        let sine = self.width / fiber;
         if self.width <= 0.0 {
             return 1.0;
         }
-        if fiber > self.least[0] && sine < MOST_SINE { (1.0 - sine * sine).sqrt() } else { LEAST_COSINE }
+        let sine = self.width / fiber;
+        let (most_sine, least_cosine) = self.most_pennation;
+        if fiber > self.least[0] && sine < most_sine { (1.0 - sine * sine).sqrt() } else { least_cosine }
     }
 }
