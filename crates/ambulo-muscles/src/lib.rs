@@ -3,8 +3,17 @@
 //! | module | duty |
 //! |---|---|
 //! | [`set`] | muscles, wraps and actuators of a model |
+//! | [`wrap`] | paths of muscles over cylinders and spheres |
+//! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
+//! | [`optimization`] | controls of least effort for given generalised forces |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
 
 pub mod set;
+pub mod wrap;
+
+pub mod curves;
+pub mod strength;
+
+pub mod optimization;
