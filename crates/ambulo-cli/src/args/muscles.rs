@@ -1,7 +1,9 @@
 //! Options of muscles.
 
 use super::values::{metres, number, one_of};
-use ambulo::job::{MuscleStatements, PennationRule, WrapRule};
+use ambulo::job::MuscleStatements;
+use ambulo::muscles::strength::Pennation;
+use ambulo::muscles::wrap::WrapRule;
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -24,10 +26,10 @@ pub(crate) struct MuscleArgs {
     /// Paths of muscles over surfaces: `exact`, the shortest; `opensim`, as OpenSim finds them.
     #[arg(long, value_name = "RULE", default_value = "exact", value_parser = one_of(&WrapRule::ALL))]
     pub(crate) wraps: WrapRule,
-    /// Pennation of muscles of Millard's kind: `opensim`, as its static optimisation computes it; `fibre`, from the
-    /// length of the fibre.
-    #[arg(long, value_name = "RULE", default_value = "opensim", value_parser = one_of(&PennationRule::ALL))]
-    pub(crate) pennation: PennationRule,
+    /// Pennation of muscles of Millard's kind: `opensim`, as its static optimisation computes it; `exact`, the
+    /// angle between fibres and tendon.
+    #[arg(long, value_name = "RULE", default_value = "opensim", value_parser = one_of(&Pennation::ALL))]
+    pub(crate) pennation: Pennation,
     /// Exponent of the activations in the sum that static optimisation makes least.
     #[arg(long, value_name = "P", default_value_t = MuscleStatements::EXPONENT, value_parser = number,
         allow_negative_numbers = true)]

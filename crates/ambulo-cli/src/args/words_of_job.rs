@@ -4,8 +4,10 @@
 use super::forces::Outputs;
 use super::words::Words;
 use ambulo::analysis::Adjustable;
-use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, MuscleStatements, PennationRule, Processing, WrapRule};
+use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, MuscleStatements, Processing};
 use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
+use ambulo::muscles::strength::Pennation;
+use ambulo::muscles::wrap::WrapRule;
 use ambulo::study::GroundSettings;
 use ambulo_results::Convention;
 use std::ffi::OsString;
@@ -52,7 +54,7 @@ fn of_muscles(muscles: Option<&MuscleStatements>, words: &mut Words) {
     let wraps = Some(stated.wraps).filter(|wraps| *wraps != defaults.wraps);
     words.value("--wraps", wraps.map(|wraps| word(&WrapRule::ALL, wraps)));
     let pennation = Some(stated.pennation).filter(|pennation| *pennation != defaults.pennation);
-    words.value("--pennation", pennation.map(|pennation| word(&PennationRule::ALL, pennation)));
+    words.value("--pennation", pennation.map(|pennation| word(&Pennation::ALL, pennation)));
     let exponent = Some(stated.exponent).filter(|exponent| exponent.to_bits() != defaults.exponent.to_bits());
     words.value("--exponent", exponent);
     words.value("--condyles", stated.condyles_m);

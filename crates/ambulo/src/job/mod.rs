@@ -60,7 +60,7 @@ pub use error::{Field, FileError, JobError};
 pub use files::{Files, ending, table};
 pub use laboratory::laboratory_file;
 pub use model_file::model;
-pub use muscles::{MuscleStatements, PennationRule, WrapRule};
+pub use muscles::MuscleStatements;
 pub use reading::{ReadJob, Reader};
 pub use settings::Processing;
 pub use subject::read_header;

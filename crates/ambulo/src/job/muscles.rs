@@ -1,5 +1,7 @@
 //! Statements about muscles in a job.
 
+use crate::muscles::strength::Pennation;
+use crate::muscles::wrap::WrapRule;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -17,7 +19,7 @@ pub struct MuscleStatements {
     /// How paths over surfaces are found.
     pub wraps: WrapRule,
     /// How the pennation of muscles of Millard's kind is found.
-    pub pennation: PennationRule,
+    pub pennation: Pennation,
     /// Exponent of the activations in the sum that is least.
     pub exponent: f64,
     /// Weight of each activation in that sum, by the name of the muscle; 1 where none is given.
@@ -27,44 +29,9 @@ pub struct MuscleStatements {
     pub condyles_m: Option<f64>,
 }
 
-/// How the path of a muscle over surfaces is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum WrapRule {
-    /// The shortest path, so that moment arms are derivatives of the length.
-    #[default]
-    Exact,
-    /// As OpenSim finds it, for comparison.
-    OpenSim,
-}
-
-/// How the pennation of a muscle of Millard's kind is found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum PennationRule {
-    /// As OpenSim's static optimisation computes it: nearly none.
-    #[default]
-    OpenSim,
-    /// From the length of the fibre in metres.
-    Fibre,
-}
-
 impl MuscleStatements {
     /// The exponent of OpenSim's tool.
     pub const EXPONENT: f64 = 2.0;
-}
-
-impl WrapRule {
-    /// The rules with their names.
-    pub const ALL: [(&'static str, WrapRule); 2] = [("exact", WrapRule::Exact), ("opensim", WrapRule::OpenSim)];
-}
-
-impl PennationRule {
-    /// The rules with their names.
-    pub const ALL: [(&'static str, PennationRule); 2] =
-        [("opensim", PennationRule::OpenSim), ("fibre", PennationRule::Fibre)];
 }
 
 impl Default for MuscleStatements {
@@ -73,7 +40,7 @@ impl Default for MuscleStatements {
             reserves: None,
             emg: None,
             wraps: WrapRule::default(),
-            pennation: PennationRule::default(),
+            pennation: Pennation::default(),
             exponent: MuscleStatements::EXPONENT,
             weights: BTreeMap::new(),
             condyles_m: None,
