@@ -6,6 +6,7 @@
 //! | [`wrap`] | paths of muscles over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
 //! | [`optimization`] | controls of least effort for given generalised forces |
+//! | [`emg`] | electromyograms: channels by name, envelopes, on/off, comparison with activations |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
@@ -17,3 +18,5 @@ pub mod curves;
 pub mod strength;
 
 pub mod optimization;
+
+pub mod emg;
