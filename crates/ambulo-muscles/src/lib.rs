@@ -3,7 +3,7 @@
 //! | module | duty |
 //! |---|---|
 //! | [`set`] | muscles, wraps and actuators of a model |
-//! | `import`, [`MuscleError`] | muscles from OpenSim documents |
+//! | `import`, `export`, `scaled` | muscles from OpenSim documents and back; scaled with the body |
 //! | [`path`] | lengths, lengthening speeds and moment arms of muscles in a posture |
 //! | [`wrap`] | paths of muscles over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
@@ -15,8 +15,10 @@ pub use ambulo_body as body;
 
 pub mod set;
 
+mod export;
 mod import;
 pub mod path;
+mod scaled;
 pub mod wrap;
 
 pub mod curves;

@@ -7,4 +7,8 @@
 mod muscle_models;
 mod shared_data;
 
+mod import;
+mod loads;
 mod paths;
+mod round_trip;
+mod scaling;
