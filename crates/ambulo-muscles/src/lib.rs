@@ -6,6 +6,8 @@
 //! | [`wrap`] | paths of muscles over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
 //! | [`optimization`] | controls of least effort for given generalised forces |
+//! | [`settings`], [`solver`], [`trial`] | muscle forces of a posture and of a motion |
+//! | [`contact_loads`] | what hip, knee and ankle carry, and both condyles of a knee |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
@@ -17,3 +19,9 @@ pub mod curves;
 pub mod strength;
 
 pub mod optimization;
+
+pub mod settings;
+pub mod solver;
+pub mod trial;
+
+pub mod contact_loads;
