@@ -24,7 +24,6 @@ pub(crate) mod progress;
 pub(crate) mod recording;
 mod residual;
 mod residual_reduction;
-pub(crate) mod segment_angles;
 mod stance_load;
 mod subject;
 pub(crate) mod times_and_distances;
