@@ -3,7 +3,9 @@
 //! | module | duty |
 //! |---|---|
 //! | [`set`] | muscles, wraps and actuators of a model |
-//! | [`wrap`] | paths of muscles over cylinders and spheres |
+//! | `import`, [`MuscleError`] | muscles from OpenSim documents |
+//! | [`path`] | lengths, lengthening speeds and moment arms of muscles in a posture |
+//! | [`wrap`] | paths over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
 //! | [`optimization`] | controls of least effort for given generalised forces |
 //! | [`settings`], [`solver`], [`trial`] | muscle forces of a posture and of a motion |
@@ -13,6 +15,9 @@
 pub use ambulo_body as body;
 
 pub mod set;
+
+mod import;
+pub mod path;
 pub mod wrap;
 
 pub mod curves;
@@ -25,3 +30,5 @@ pub mod solver;
 pub mod trial;
 
 pub mod contact_loads;
+
+pub use import::MuscleError;
