@@ -1,6 +1,5 @@
-//! Location of recordings that are not part of the repository: `shared/data` next to it, or `$AMBULO_DATA/data`.
+//! Recordings that are not part of the repository: `shared/data` next to it, or `$AMBULO_DATA/data`.
 
-#![allow(dead_code, reason = "each crate uses its own part")]
 use std::path::{Path, PathBuf};
 
 /// The folder; `None`, with a printed line, if there is none.
