@@ -2,6 +2,7 @@
 //!
 //! | module | duty |
 //! |---|---|
+//! | [`built_in`] | the muscles of the built-in body of a person |
 //! | [`set`] | muscles, wraps and actuators of a model |
 //! | `import`, [`MuscleError`] | muscles from OpenSim documents |
 //! | [`path`] | lengths, lengthening speeds and moment arms of muscles in a posture |
@@ -15,6 +16,7 @@
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
 
+pub mod built_in;
 pub mod set;
 
 mod import;

@@ -68,7 +68,7 @@ impl Default for Reserves {
 /// Why muscle forces cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MuscleError {
+pub enum SolverError {
     /// A model without muscles.
     #[error("the model has no muscles; expected at least one")]
     NoMuscles,

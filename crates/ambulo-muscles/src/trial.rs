@@ -1,6 +1,6 @@
 //! Muscle forces over a whole motion.
 //!
-//! ```ignore
+//! ```text
 //! let net = inverse(&mut Workspace::new(&model), &trajectory, &ground);
 //! let trial = solve_trial(&model, &set, &settings, &trajectory, &net.generalized)?;
 //! let reader = trial.reader(&model, &trajectory, &ground);
@@ -9,9 +9,11 @@
 
 use crate::body::dynamics::{LoadSeries, ReactionReader};
 use crate::body::kinematics::Trajectory;
-use crate::body::model::{CoordinateId, Model};
+use crate::body::model::{BodyId, CoordinateId, Model};
 use crate::set::MuscleSet;
-use crate::settings::{MuscleError, MuscleSettings};
+use crate::settings::{MuscleSettings, SolverError};
+use crate::solver::{FrameValues, MuscleSolver};
+use std::collections::BTreeSet;
 
 /// One muscle over a motion; one entry per frame.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -70,6 +72,45 @@ pub struct MuscleTrial {
 }
 
 impl MuscleTrial {
+    fn empty(solver: &MuscleSolver, set: &MuscleSet, frames: usize) -> MuscleTrial {
+        let column = || Vec::with_capacity(frames);
+        let muscle = |_| MuscleSeries { activation: column(), force: column(), length: column(), speed: column() };
+        let reserve = |id: &CoordinateId| ReserveSeries { coordinate: *id, force: column(), unmet: column() };
+        let load = |body| LoadSeries { body, points: Vec::with_capacity(frames), wrenches: Vec::with_capacity(frames) };
+        MuscleTrial {
+            muscles: set.muscles.iter().map(muscle).collect(),
+            reserves: solver.coordinates().iter().map(reserve).collect(),
+            loads: pulled_bodies(set).into_iter().map(load).collect(),
+            iterations: Vec::with_capacity(frames),
+            unmet_frames: Vec::new(),
+            net: vec![0.0; solver.coordinates().len()],
+        }
+    }
+
+    fn push(&mut self, frame: usize, values: &FrameValues) {
+        for (i, series) in self.muscles.iter_mut().enumerate() {
+            series.activation.push(values.activations[i]);
+            series.force.push(values.forces[i]);
+            series.length.push(values.lengths[i]);
+            series.speed.push(values.speeds[i]);
+        }
+        for (i, series) in self.reserves.iter_mut().enumerate() {
+            series.force.push(values.reserves[i]);
+            series.unmet.push(values.unmet[i]);
+            self.net[i] = self.net[i].max(values.required[i].abs());
+        }
+        for series in &mut self.loads {
+            let load = values.body_loads[series.body.index()];
+            series.points.push(load.point);
+            series.wrenches.push(load.wrench);
+        }
+        let Some(convergence) = values.convergence else { return };
+        self.iterations.push(convergence.iterations);
+        if !convergence.is_met {
+            self.unmet_frames.push(frame);
+        }
+    }
+
     /// Reactions of all joints with the tensions of the muscles; `ground` are the loads of the net inverse dynamics.
     #[must_use]
     pub fn reader<'a>(&self, model: &Model, trajectory: &'a Trajectory, ground: &[LoadSeries]) -> ReactionReader<'a> {
@@ -101,7 +142,7 @@ impl MuscleTrial {
 /// one entry per frame.
 ///
 /// # Errors
-/// See [`MuscleError`].
+/// See [`SolverError`].
 ///
 /// # Panics
 /// If `generalized` has other columns or frames than the trajectory.
@@ -111,7 +152,27 @@ pub fn solve_trial(
     settings: &MuscleSettings,
     trajectory: &Trajectory,
     generalized: &[Vec<f64>],
-) -> Result<MuscleTrial, MuscleError> {
-    let _ = (model, set, settings, trajectory, generalized);
-    Err(MuscleError::NoMuscles)
+) -> Result<MuscleTrial, SolverError> {
+    let frames = trajectory.grid().frames;
+    assert!(
+        generalized.len() == model.coordinates().len() && generalized.iter().all(|column| column.len() == frames),
+        "generalised forces of another motion"
+    );
+    let mut solver = MuscleSolver::new(model, set, settings)?;
+    let mut trial = MuscleTrial::empty(&solver, set, frames);
+    let mut forces = vec![0.0; generalized.len()];
+    trajectory.for_each_posture(|frame, posture| {
+        for (force, column) in forces.iter_mut().zip(generalized) {
+            *force = column[frame];
+        }
+        trial.push(frame, solver.frame(posture, &forces));
+    });
+    Ok(trial)
+}
+
+/// The bodies on which muscles pull.
+fn pulled_bodies(set: &MuscleSet) -> Vec<BodyId> {
+    let points = set.muscles.iter().flat_map(|muscle| &muscle.path.points).filter_map(|point| point.body);
+    let bodies: BTreeSet<BodyId> = points.chain(set.wraps.iter().filter_map(|wrap| wrap.body)).collect();
+    bodies.into_iter().collect()
 }

@@ -5,6 +5,8 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod muscle_models;
+mod people;
 mod shared_data;
 
+mod built_in;
 mod paths;
