@@ -5,8 +5,10 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod muscle_models;
+mod people;
 mod shared_data;
 
+mod built_in;
 mod import;
 mod loads;
 mod paths;
