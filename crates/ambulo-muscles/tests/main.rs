@@ -4,6 +4,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
+mod muscle_models;
 mod shared_data;
 
+mod paths;
+mod wrap_models;
 mod wrap_opensim;

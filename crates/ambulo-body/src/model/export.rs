@@ -3,8 +3,7 @@
 use super::osim_frame::frame;
 use super::osim_function::write as function;
 use super::{
-    Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds,
-    Marker, Model,
+    Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Joint, JointAxis, JointSpeeds, Marker, Model,
 };
 use crate::spatial::{Pose, Vec3, rotation};
 use ambulo_formats::osim::{

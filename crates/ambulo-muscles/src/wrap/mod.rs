@@ -33,15 +33,23 @@ mod tangents;
 use crate::set::{Quadrant, WrapShape};
 use ambulo_body::model::BodyId;
 use ambulo_body::spatial::{Pose, Vec3};
+use serde::Deserialize;
 
 /// How paths run over surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum WrapRule {
     /// The shortest path, exactly.
     #[default]
     Exact,
     /// As OpenSim 4.6 computes it, with its approximations.
     OpenSim,
+}
+
+impl WrapRule {
+    /// The rules with their names.
+    pub const ALL: [(&'static str, WrapRule); 2] = [("exact", WrapRule::Exact), ("opensim", WrapRule::OpenSim)];
 }
 
 /// A point through which a path runs, in one posture.
