@@ -14,3 +14,5 @@ mod loads;
 mod paths;
 mod round_trip;
 mod scaling;
+mod wrap_models;
+mod wrap_opensim;
