@@ -53,7 +53,8 @@ impl Subject {
         let recorded = recorded(moving, named);
         let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
         let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
-        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64 && hardly_shown(self, &followed).next().is_none()
+        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64
+            && hardly_shown(self, &followed).next().is_none()
     }
 }
 

@@ -181,7 +181,7 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
-        let Source { recording, forces, device, added_mass, stated, movement } = self;
+        let Source { recording, forces, device, added_mass, stated, movement, muscles: _ } = self;
         let statements =
             Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated, movement };
         let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
