@@ -7,4 +7,7 @@
 mod muscle_models;
 mod shared_data;
 
+mod curves;
+mod optimization;
 mod paths;
+mod strength;
