@@ -10,6 +10,7 @@
 //! | [`optimization`] | controls of least effort for given generalised forces |
 //! | [`settings`], [`solver`], [`trial`] | muscle forces of a posture and of a motion |
 //! | [`contact_loads`] | what hip, knee and ankle carry, and both condyles of a knee |
+//! | [`emg`] | electromyograms: channels by name, envelopes, on/off, comparison with activations |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
@@ -30,5 +31,6 @@ pub mod solver;
 pub mod trial;
 
 pub mod contact_loads;
+pub mod emg;
 
 pub use import::MuscleError;

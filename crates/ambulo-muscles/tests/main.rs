@@ -11,3 +11,5 @@ mod curves;
 mod optimization;
 mod paths;
 mod strength;
+mod wrap_models;
+mod wrap_opensim;
