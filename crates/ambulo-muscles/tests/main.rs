@@ -5,11 +5,17 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod muscle_models;
+mod people;
 mod shared_data;
 
+mod built_in;
 mod curves;
+mod import;
+mod loads;
 mod optimization;
 mod paths;
+mod round_trip;
+mod scaling;
 mod strength;
 mod wrap_models;
 mod wrap_opensim;
