@@ -1,5 +1,6 @@
 //! Joint reactions with muscles against OpenSim 4.6's JointReaction, and the shares of the condyles.
 
+use crate::muscle_models::Table;
 use crate::walks::Walk;
 use ambulo_body::dynamics::{LoadSeries, ReactionReader};
 use ambulo_body::model::{BySide, Side};
@@ -10,18 +11,16 @@ use ambulo_muscles::settings::MuscleSettings;
 use ambulo_muscles::trial::solve_trial;
 use ambulo_muscles::wrap::WrapRule;
 
-/// The tensions that OpenSim's static optimisation found, as loads on all bodies.
-fn reference_loads(walk: &Walk, factor: f64) -> Vec<LoadSeries> {
+/// Tensions by the name of the muscle and the frame, as loads on all bodies.
+fn loads_of(walk: &Walk, tension: impl Fn(&str, usize) -> f64) -> Vec<LoadSeries> {
     let (model, set) = (&walk.muscles.model, &walk.muscles.set);
-    let forces = walk.reference("so", "_force");
-    let columns: Vec<&[f64]> = set.muscles.iter().map(|muscle| forces.column(&muscle.name).unwrap()).collect();
     let mut paths = PathWorkspace::new(model, set, WrapRule::OpenSim);
     let mut series: Vec<LoadSeries> =
         model.body_ids().map(|body| LoadSeries { body, points: Vec::new(), wrenches: Vec::new() }).collect();
     let mut loads = Vec::new();
     walk.trajectory.for_each_posture(|frame, posture| {
         paths.update(posture);
-        let tensions: Vec<f64> = columns.iter().map(|column| column[frame] * factor).collect();
+        let tensions: Vec<f64> = set.muscles.iter().map(|muscle| tension(&muscle.name, frame)).collect();
         paths.loads(&tensions, &mut loads);
         for (series, load) in series.iter_mut().zip(&loads) {
             series.points.push(load.point);
@@ -29,6 +28,22 @@ fn reference_loads(walk: &Walk, factor: f64) -> Vec<LoadSeries> {
         }
     });
     series
+}
+
+/// The tensions that OpenSim's static optimisation found, times a factor.
+fn reference_loads(walk: &Walk, factor: f64) -> Vec<LoadSeries> {
+    let forces = walk.reference("so", "_force");
+    loads_of(walk, |name, frame| forces.column(name).unwrap()[frame] * factor)
+}
+
+/// The tensions of the exact optimum (`so_MODEL_exact.csv`) with OpenSim's strengths, as loads on all bodies.
+fn exact_loads(walk: &Walk) -> Vec<LoadSeries> {
+    let [activations, strengths] = ["so_NAME_exact.csv", "optimal_force_NAME.csv"]
+        .map(|file| Table::read(&file.replace("NAME", walk.name)).unwrap());
+    let tension = |name: &str, frame: usize| {
+        activations.number(&activations.rows[frame], name) * strengths.number(&strengths.rows[frame], name)
+    };
+    loads_of(walk, tension)
 }
 
 /// Largest difference of the reactions from OpenSim's over all frames and joints: forces in body weights, moments in
@@ -83,7 +98,11 @@ fn reactions_with_our_forces_agree_with_opensim() {
         println!("{name}, own muscle forces:");
         let found = difference(&walk, &trial.unwrap().loads, true);
         println!("  largest {:.4} BW, {:.5} BW.m", found[0], found[1]);
-        assert!(found[0] < 0.03 && found[1] < 0.03, "{name}: {found:?}");
+        // OpenSim's optimiser stops early: the exact optimum of its own problem differs as much from its forces.
+        let exact = difference(&walk, &exact_loads(&walk), false);
+        println!("  exact optimum of OpenSim's problem: {:.4} BW, {:.5} BW.m", exact[0], exact[1]);
+        assert!(found[0] < exact[0].max(0.03) + 1e-4 && found[1] < 0.03, "{name}: {found:?} {exact:?}");
+        assert!(exact[0] < 0.035, "{name}: {exact:?}");
     }
 }
 
@@ -117,9 +136,9 @@ fn legs_carry_what_their_joints_carry() {
             for (frame, whole) in compression.iter().enumerate() {
                 let sum = leg.knee.medial[frame] + leg.knee.lateral[frame];
                 assert!((sum - whole).abs() < 1e-9 * walk.body_weight, "{sum} {whole}");
-                // Both axes are perpendicular, so lengths are kept unless the floating axis is not.
+                // The same force in two frames.
                 let [a, b] = [leg.joints[1].in_child[frame].force.norm(), leg.joints[1].in_joint[frame].force.norm()];
-                assert!((a - b).abs() < 0.05 * walk.body_weight, "{a} {b}");
+                assert!((a - b).abs() < 1e-9 * walk.body_weight, "{a} {b}");
             }
             // In single support the medial side carries more than half.
             let at = most(&compression).peak_frame;

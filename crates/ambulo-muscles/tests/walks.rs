@@ -23,7 +23,8 @@ pub(crate) struct Walk {
     /// Generalised forces of inverse dynamics: one column per coordinate.
     pub(crate) generalized: Vec<Vec<f64>>,
     pub(crate) body_weight: f64,
-    name: &'static str,
+    /// Name in the tables.
+    pub(crate) name: &'static str,
 }
 
 /// Folder, motion, plates, their document, and the time range of the references.
