@@ -19,7 +19,6 @@ mod paths;
 mod round_trip;
 mod scaling;
 mod solver;
-mod solver;
 mod strength;
 mod wrap_models;
 mod wrap_opensim;
