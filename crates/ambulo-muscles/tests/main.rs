@@ -1,1 +1,14 @@
 //! Tests of the muscles against OpenSim 4.6, closed forms and identities.
+
+#![allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
+
+mod shared_data;
+
+mod emg_comparison;
+mod emg_cycles;
+mod emg_names;
+mod emg_normal_timing;
+mod emg_recordings;
+mod emg_signals;

@@ -52,7 +52,8 @@ pub fn compare(
     let mut comparisons = Vec::new();
     for envelope in envelopes.iter().filter(|envelope| envelope.signal.is_muscle()) {
         let Some(side) = envelope.side else { continue };
-        let is_same = |muscle: AnatomicalMuscle, other: Side| other == side && muscle.shares_fibres_with(envelope.muscle);
+        let is_same =
+            |muscle: AnatomicalMuscle, other: Side| other == side && muscle.shares_fibres_with(envelope.muscle);
         let same: Vec<_> = known.iter().filter(|(_, _, muscle, other)| is_same(*muscle, *other)).collect();
         let pairs: Vec<[f64; 2]> = (0..grid.frames)
             .filter_map(|frame| {

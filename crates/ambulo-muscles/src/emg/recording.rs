@@ -105,11 +105,13 @@ fn recording(
     for candidate in candidates {
         let assigned = assigned.iter().find(|(channel, _)| channel == candidate.name);
         let known = match assigned {
-            Some((channel, muscle)) => Some(AnatomicalMuscle::of_name(muscle).ok_or_else(|| {
-                EmgError::UnknownMuscle { channel: channel.clone(), muscle: muscle.clone() }
-            })?),
-            None => AnatomicalMuscle::of_name(candidate.name)
-                .or_else(|| AnatomicalMuscle::of_name(candidate.description)),
+            Some((channel, muscle)) => Some(
+                AnatomicalMuscle::of_name(muscle)
+                    .ok_or_else(|| EmgError::UnknownMuscle { channel: channel.clone(), muscle: muscle.clone() })?,
+            ),
+            None => {
+                AnatomicalMuscle::of_name(candidate.name).or_else(|| AnatomicalMuscle::of_name(candidate.description))
+            }
         };
         let Some((muscle, side)) = known else {
             recording.unknown.push(candidate.name.to_owned());
