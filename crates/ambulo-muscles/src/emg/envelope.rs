@@ -146,7 +146,7 @@ fn envelope(channel: &EmgChannel, grid: TimeGrid, settings: &EmgSettings) -> Res
     }
     if is_envelope(samples, &numbers, rate_hz).map_err(of_filter)? {
         let values = samples.iter().map(|x| if x.is_finite() { *x } else { 0.0 }).collect();
-        return Ok(made(Processing::Unchanged, of_envelope(inside(samples, &numbers)), values, numbers));
+        return Ok(made(Processing::Unchanged, EmgSignal::Muscle, values, numbers));
     }
     if settings.band_hz[1] >= 0.5 * rate_hz {
         let highest_hz = settings.band_hz[1];

@@ -9,6 +9,8 @@
 //! | noise: root mean square frequency in the band, as a share of that of white noise | > 0.75 | muscles ≤ 0.67, amplifier noise ≥ 0.75 |
 //! | steady: 95th percentile of the envelope over its 10th | < 3 | muscles ≥ 3.4, noise and mains hum 1.1 to 3 |
 //!
+//! Of an envelope of a file only the rules for too few and equal samples are asked.
+//!
 //! √(Σ f² P / Σ P) = rate/π asin(½ √(Σ (xₖ₊₁ - xₖ)² / Σ xₖ²)) up to the spread of P, the root mean square frequency;
 //! for white noise between a and b it is √((b³ - a³)/(3 (b - a))).
 //!
@@ -180,7 +182,7 @@ pub(super) fn of_raw(values: &[f64], band: &[f64], rate_hz: f64, settings: &EmgS
     (frequency_hz > WHITE * white_hz).then_some(EmgSignal::Noise { frequency_hz })
 }
 
-/// Whether an envelope changes.
+/// Whether the envelope of a raw signal changes.
 pub(super) fn of_envelope(values: Vec<f64>) -> EmgSignal {
     let low = percentile(values.clone(), 0.1);
     let high = percentile(values, 0.95);
