@@ -3,10 +3,27 @@
 //! | module | duty |
 //! |---|---|
 //! | [`set`] | muscles, wraps and actuators of a model |
-//! | [`emg`] | electromyograms: envelopes, on/off, comparison with activations |
+//! | `import`, [`MuscleError`] | muscles from OpenSim documents |
+//! | [`path`] | lengths, lengthening speeds and moment arms of muscles in a posture |
+//! | [`wrap`] | paths of muscles over cylinders and spheres |
+//! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
+//! | [`optimization`] | controls of least effort for given generalised forces |
+//! | [`emg`] | electromyograms: channels by name, envelopes, on/off, comparison with activations |
 
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
 
-pub mod emg;
 pub mod set;
+
+mod import;
+pub mod path;
+pub mod wrap;
+
+pub mod curves;
+pub mod strength;
+
+pub mod optimization;
+
+pub mod emg;
+
+pub use import::MuscleError;

@@ -12,3 +12,7 @@ mod emg_names;
 mod emg_normal_timing;
 mod emg_recordings;
 mod emg_signals;
+mod muscle_models;
+mod shared_data;
+
+mod paths;

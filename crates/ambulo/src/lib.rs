@@ -83,6 +83,7 @@ pub use ambulo_body::{
     toml_reader,
 };
 #[doc(inline)]
+pub use ambulo_muscles as muscles;
 pub use ambulo_walk::{gait, optimal};
 
 pub mod ground;
