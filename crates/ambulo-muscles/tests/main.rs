@@ -16,3 +16,5 @@ mod muscle_models;
 mod shared_data;
 
 mod paths;
+mod wrap_models;
+mod wrap_opensim;
