@@ -8,6 +8,8 @@
 //! | [`wrap`] | paths of muscles over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
 //! | [`optimization`] | controls of least effort for given generalised forces |
+//! | [`settings`], [`solver`], [`trial`] | muscle forces of a posture and of a motion |
+//! | [`contact_loads`] | what hip, knee and ankle carry, and both condyles of a knee |
 //! | [`emg`] | electromyograms: channels by name, envelopes, on/off, comparison with activations |
 
 /// The body and its mechanics, so that one dependency is enough.
@@ -23,6 +25,12 @@ pub mod curves;
 pub mod strength;
 
 pub mod optimization;
+
+pub mod settings;
+pub mod solver;
+pub mod trial;
+
+pub mod contact_loads;
 
 pub mod emg;
 
