@@ -20,10 +20,10 @@
 //! Not handled: compliant tendons; passive force.
 //! Pinned by: tests/strength.rs
 
-use serde::Deserialize;
 use crate::body::numerics::elementary::{sin, sin_cos};
 use crate::curves::ForceCurves;
 use crate::set::{MuscleCurves, MuscleParameters};
+use serde::Deserialize;
 
 /// Least fibre length of a muscle without pennation [optimal fibre lengths], as in OpenSim.
 const LEAST_LENGTH: f64 = 0.01;
@@ -43,8 +43,7 @@ pub enum Pennation {
 
 impl Pennation {
     /// The rules with their names.
-    pub const ALL: [(&'static str, Pennation); 2] =
-        [("opensim", Pennation::AsOpenSim), ("exact", Pennation::Right)];
+    pub const ALL: [(&'static str, Pennation); 2] = [("opensim", Pennation::AsOpenSim), ("exact", Pennation::Right)];
 }
 
 /// What the strength of one muscle depends on, prepared.

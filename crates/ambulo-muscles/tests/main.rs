@@ -4,17 +4,16 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
+mod muscle_models;
 mod shared_data;
 
+mod emg_against_opensim;
 mod emg_comparison;
 mod emg_cycles;
 mod emg_names;
 mod emg_normal_timing;
 mod emg_recordings;
 mod emg_signals;
-mod muscle_models;
-mod shared_data;
-
 mod paths;
 mod wrap_models;
 mod wrap_opensim;
