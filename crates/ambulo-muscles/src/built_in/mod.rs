@@ -12,7 +12,7 @@
 //! |---|---|---|
 //! | p | a point in the frame of its segment on the reference body | m |
 //! | o, R | origin and axes of the segment frame in the body: table below | m, - |
-//! | s | length of thigh or shank over that of the reference; for pelvis and feet the mean of thigh + shank of both legs | - |
+//! | s | size over that of the reference: length of thigh or shank; for the pelvis the distance between the markers of the anterior iliac spines where the model has them; otherwise, and for feet, the mean of thigh + shank of both legs | - |
 //! | L, L₀ | length of the path in the neutral posture, with the lengths of the person and of the reference | m |
 //! | V, V₀ | muscle volume of both legs, 47.05 m h + 1289.6 | cm³ |
 //! | m, h | body mass [kg] and stature [m], both statures from thigh and shank | kg, m |
