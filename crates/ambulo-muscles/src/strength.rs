@@ -23,18 +23,27 @@
 use crate::body::numerics::elementary::{sin, sin_cos};
 use crate::curves::ForceCurves;
 use crate::set::{MuscleCurves, MuscleParameters};
+use serde::Deserialize;
 
 /// Least fibre length of a muscle without pennation [optimal fibre lengths], as in OpenSim.
 const LEAST_LENGTH: f64 = 0.01;
 
 /// Whose pennation reduces the active force of Millard's muscles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Pennation {
     /// As OpenSim 4.6 computes it: see the [module](self).
     #[default]
+    #[serde(rename = "opensim")]
     AsOpenSim,
     /// The angle between fibres and tendon.
+    #[serde(rename = "exact")]
     Right,
+}
+
+impl Pennation {
+    /// The rules with their names.
+    pub const ALL: [(&'static str, Pennation); 2] = [("opensim", Pennation::AsOpenSim), ("exact", Pennation::Right)];
 }
 
 /// What the strength of one muscle depends on, prepared.

@@ -9,4 +9,10 @@ mod people;
 mod shared_data;
 
 mod built_in;
+mod import;
+mod loads;
 mod paths;
+mod round_trip;
+mod scaling;
+mod wrap_models;
+mod wrap_opensim;

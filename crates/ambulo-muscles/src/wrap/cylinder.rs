@@ -18,6 +18,7 @@ use super::{Arc, Contact, Passage};
 use crate::set::Quadrant;
 use ambulo_body::numerics::elementary::{atan2, hypot};
 use ambulo_body::spatial::Vec3;
+use std::f64::consts::TAU;
 
 /// The shortest path from `a` to `b` in the axes of a cylinder of this radius and length.
 pub(super) fn shortest([a, b]: [Vec3; 2], [radius, length]: [f64; 2], quadrant: Option<Quadrant>) -> Passage {
@@ -41,6 +42,9 @@ pub(super) fn shortest([a, b]: [Vec3; 2], [radius, length]: [f64; 2], quadrant: 
         from: from.touch(a, sense, heights[0]),
         to: to.touch(b, -sense, heights[1]),
         length: radius * angle * hypot(1.0, rise),
+        angle,
+        sense,
+        crosses: turn.abs().min(TAU - turn.abs()) > from.angle + to.angle,
     })
 }
 

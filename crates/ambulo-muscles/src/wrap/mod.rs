@@ -23,21 +23,33 @@
 //! Not handled: ellipsoids and tori.
 //! Pinned by: tests/wrap_closed_forms.rs, tests/wrap_opensim.rs.
 
+mod chain;
 mod cylinder;
+mod opensim;
+mod opensim_cylinder;
 mod sphere;
+mod tangents;
 
 use crate::set::{Quadrant, WrapShape};
 use ambulo_body::model::BodyId;
 use ambulo_body::spatial::{Pose, Vec3};
+use serde::Deserialize;
 
 /// How paths run over surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum WrapRule {
     /// The shortest path, exactly.
     #[default]
     Exact,
     /// As OpenSim 4.6 computes it, with its approximations.
     OpenSim,
+}
+
+impl WrapRule {
+    /// The rules with their names.
+    pub const ALL: [(&'static str, WrapRule); 2] = [("exact", WrapRule::Exact), ("opensim", WrapRule::OpenSim)];
 }
 
 /// A point through which a path runs, in one posture.
@@ -100,6 +112,7 @@ pub enum Contact {
 pub struct PathRoute {
     nodes: Vec<PathNode>,
     contacts: Vec<Contact>,
+    chain: chain::Chain,
 }
 
 impl PathRoute {
@@ -111,14 +124,18 @@ impl PathRoute {
         self.nodes.clear();
         self.contacts.clear();
         self.contacts.resize(surfaces.len(), Contact::Free);
-        let _ = rule;
+        if rule == WrapRule::OpenSim {
+            return opensim::find(anchors, surfaces, &mut self.contacts, &mut self.nodes);
+        }
         for (k, anchor) in anchors.iter().enumerate() {
             self.nodes.push(anchor.node());
             let Some(next) = anchors.get(k + 1) else { break };
-            for (s, surface) in surfaces.iter().enumerate() {
-                if surface.covers(k) {
-                    self.wrap_once(anchor.place, next.place, s, surface);
-                }
+            let mut covering = surfaces.iter().enumerate().filter(|(_, surface)| surface.covers(k));
+            let ends = [anchor.place, next.place];
+            match (covering.next(), covering.next()) {
+                (None, _) => {}
+                (Some((index, surface)), None) => self.wrap_once(ends, index, surface),
+                (Some(_), Some(_)) => self.chain.find(ends, (k, surfaces), &mut self.contacts, &mut self.nodes),
             }
         }
     }
@@ -138,12 +155,11 @@ impl PathRoute {
     /// Length of the path [m].
     #[must_use]
     pub fn length(&self) -> f64 {
-        let parts = self.nodes.windows(2);
-        parts.map(|part| part[0].arc.unwrap_or_else(|| (part[1].place - part[0].place).norm())).sum()
+        length(&self.nodes)
     }
 
     /// Adds the arc over a single surface between two places.
-    fn wrap_once(&mut self, from: Vec3, to: Vec3, index: usize, surface: &PathSurface) {
+    fn wrap_once(&mut self, [from, to]: [Vec3; 2], index: usize, surface: &PathSurface) {
         match surface.shortest(from, to) {
             Passage::Straight(contact) => note(&mut self.contacts[index], contact),
             Passage::Over(arc) => {
@@ -187,6 +203,18 @@ impl PathSurface {
     }
 }
 
+/// Length of a path [m].
+fn length(nodes: &[PathNode]) -> f64 {
+    nodes.windows(2).map(|part| part[0].arc.unwrap_or_else(|| (part[1].place - part[0].place).norm())).sum()
+}
+
+impl Quadrant {
+    /// Whether a place in the axes of the surface is on the permitted side, its border included.
+    fn holds(self, place: &Vec3) -> bool {
+        (place[self.axis.min(2)] >= 0.0) == self.positive
+    }
+}
+
 /// Keeps the stronger statement when a surface covers several parts of a path.
 fn note(kept: &mut Contact, new: Contact) {
     if *kept == Contact::Free {
@@ -203,6 +231,12 @@ struct Arc {
     to: Vec3,
     /// Its length [m].
     length: f64,
+    /// The angle around the axis of a cylinder, or around the centre of a sphere [rad].
+    angle: f64,
+    /// 1 or -1. Cylinder: turning about z positively or not. Sphere: the nearer or the other way round.
+    sense: f64,
+    /// Whether the straight line would run through the surface; a one-sided surface is also in the way of lines behind.
+    crosses: bool,
 }
 
 /// How a path passes a surface.

@@ -37,11 +37,12 @@ pub(super) fn shortest([a, b]: [Vec3; 2], radius: f64, quadrant: Option<Quadrant
             radius * (cos * toward + sin * normal.cross(&toward))
         })
     };
-    let (ends, angle) = match is_far(quadrant, touch(-1.0), [a, b]) {
-        false => (touch(1.0), near),
-        true => (touch(-1.0), TAU - between - covered),
+    let (sense, angle) = match is_far(quadrant, touch(-1.0), [a, b]) {
+        false => (1.0, near),
+        true => (-1.0, TAU - between - covered),
     };
-    Passage::Over(Arc { from: ends[0], to: ends[1], length: radius * angle })
+    let [from, to] = touch(sense);
+    Passage::Over(Arc { from, to, length: radius * angle, angle, sense, crosses: true })
 }
 
 /// Unit normal of the plane of the path; if both points and the centre lie on a line, one of its many planes.
