@@ -9,10 +9,13 @@ mod people;
 mod shared_data;
 
 mod built_in;
+mod curves;
 mod import;
 mod loads;
+mod optimization;
 mod paths;
 mod round_trip;
 mod scaling;
+mod strength;
 mod wrap_models;
 mod wrap_opensim;

@@ -101,3 +101,15 @@ pub(crate) fn postures(name: &str, model: &Model) -> Option<Vec<(String, State)>
         |row: &Vec<String>| (table.text(row, "kind").to_owned(), State::new(values(row, "q"), values(row, "u")));
     Some(table.rows.iter().map(state).collect())
 }
+
+/// Random numbers in 0 to 1, from a seed (splitmix64).
+pub(crate) fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(1);
+    move || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}

@@ -13,7 +13,7 @@
 //!
 //! The optimum x is unique, and so is the result: a start from the λ of the frame before saves steps and nothing else.
 //!
-//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or, where rounding stops the steps earlier, 1e-9
+//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or, where rounding stops the steps earlier, 1e-11
 //! of it. Coordinates that no actuator moves are left out, and their τ is unmet. If no x within the bounds gives τ, the
 //! same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of multipliers): x tends to the
 //! controls with the least unmet forces, which are reported.
@@ -40,14 +40,14 @@ use factor::Factor;
 /// Share of a row's terms to which the equations are met.
 const CLOSE: f64 = 1e-12;
 /// The same, if rounding allows no more.
-const CLOSE_ENOUGH: f64 = 1e-9;
+const CLOSE_ENOUGH: f64 = 1e-11;
 /// Steps after which a problem is taken for one without solution.
 const MOST_STEPS: usize = 60;
 /// Centres of the method of multipliers.
 const MOST_CENTRES: usize = 12;
 /// First and further weights of a centre, relative to the diagonal of the Hessian.
 const WEIGHT: f64 = 1e3;
-/// Smallest |y| at which the slope of the controls is taken, for exponents other than 2.
+/// Below this |y|, controls with exponents other than 2 are straight, so that their slope is finite.
 const LEAST_EFFORT: f64 = 1e-14;
 
 /// What a control costs and where it may be.
@@ -330,7 +330,10 @@ fn control(actuator: &Actuator, exponent: f64, y: f64) -> (f64, f64) {
     } else {
         let size = y.abs().max(LEAST_EFFORT);
         let x = powf(size / (exponent * weight), 1.0 / (exponent - 1.0));
-        (if y.abs() < LEAST_EFFORT { 0.0 } else { x.copysign(y) }, x / ((exponent - 1.0) * size))
+        match y.abs() < LEAST_EFFORT {
+            true => (x * (y / size), x / size),
+            false => (x.copysign(y), x / ((exponent - 1.0) * size)),
+        }
     };
     if x < low {
         (low, 0.0)
