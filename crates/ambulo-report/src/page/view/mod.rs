@@ -40,6 +40,7 @@ pub(super) fn drawn(stage: Stage, block: &mut Block) -> Viewed {
         forces: stage.forces.iter().map(|force| of_force(force, block)).collect(),
         torques: stage.torques.iter().map(|torque| of_torque(torque, block)).collect(),
         contacts: stage.contacts.iter().map(of_contact).collect(),
+        muscles: None,
         floor_m: stage.floor_m,
         weight_n: stage.weight_n,
     };
