@@ -117,6 +117,11 @@ fn option(field: Field) -> Option<&'static str> {
         Field::KneeAxis => "`--knee-axis markers|least-cross-talk`",
         Field::Functional => "`--functional FILE`",
         Field::ResidualReduction => "`--consistent`",
+        Field::Muscles => "`--muscles`",
+        Field::Reserves => "`--reserves FILE`",
+        Field::Emg => "`--emg FILE`",
+        Field::Exponent => "`--exponent P`",
+        Field::Condyles => "`--condyles M`",
     };
     Some(option)
 }

@@ -129,6 +129,30 @@ pub(crate) fn line_of(node: Node<'_, '_>) -> usize {
     1 + count(&node.document().input_text().as_bytes()[..node.range().start], b'\n')
 }
 
+/// Lines of elements of one document, counted from 1. For elements in the order of the document each byte is counted once.
+pub(crate) struct LineCounter<'d> {
+    text: &'d [u8],
+    at: usize,
+    line: usize,
+}
+
+impl<'d> LineCounter<'d> {
+    pub(crate) fn new(text: &'d str) -> LineCounter<'d> {
+        LineCounter { text: text.as_bytes(), at: 0, line: 1 }
+    }
+
+    /// Line of the element's opening tag.
+    pub(crate) fn line_of(&mut self, node: Node<'_, '_>) -> usize {
+        let start = node.range().start;
+        if start < self.at {
+            (self.at, self.line) = (0, 1);
+        }
+        self.line += count(&self.text[self.at..start], b'\n');
+        self.at = start;
+        self.line
+    }
+}
+
 /// An error at this element.
 pub(crate) fn error_at(node: Node<'_, '_>, found: String, expected: impl Into<String>) -> Error {
     let name = node.attribute("name").map(|n| format!(" name=\"{n}\"")).unwrap_or_default();

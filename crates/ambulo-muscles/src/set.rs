@@ -45,12 +45,16 @@ pub struct PathPoint {
     pub place: PointPlace,
 }
 
+/// Margin at both ends of the range of a conditional point, as OpenSim has it [rad or m].
+pub const RANGE_MARGIN: f64 = 1e-5;
+
 /// Where a point of a path is on its body [m].
 #[derive(Debug, Clone, PartialEq)]
 pub enum PointPlace {
     /// Always at one place.
     Fixed(Vec3),
-    /// At one place, and part of the path only while a coordinate is in a range (both ends included) [rad or m].
+    /// At one place, and part of the path only while a coordinate is in a range (both ends included, with the margin
+    /// [`RANGE_MARGIN`]) [rad or m].
     Conditional {
         /// The place [m].
         place: Vec3,
@@ -59,8 +63,14 @@ pub enum PointPlace {
         /// Least and greatest value.
         range: [f64; 2],
     },
-    /// At a place whose x, y and z are functions of coordinates [m]; without a coordinate the function is constant.
-    Moving([(Option<CoordinateId>, Function); 3]),
+    /// At a place whose x, y and z in a frame of the body are functions of coordinates [m]. A coordinate counts up to the
+    /// ends of its range; without a coordinate the function is taken at 0.
+    Moving {
+        /// `body_from_frame`.
+        frame: Pose,
+        /// Coordinate and function of x, y and z.
+        axes: [(Option<CoordinateId>, Function); 3],
+    },
 }
 
 /// A surface that a path avoids between two of its points.
@@ -144,7 +154,11 @@ pub struct MuscleParameters {
     pub pennation_at_optimal: f64,
     /// Greatest velocity of shortening [optimal fibre lengths a second].
     pub max_contraction_velocity: f64,
-    /// Least and greatest activation.
+    /// Greatest angle between fibres and tendon, which limits how short the fibres get [rad].
+    pub max_pennation: f64,
+    /// Whether the tendon keeps its slack length whatever the force (OpenSim's `ignore_tendon_compliance`).
+    pub rigid_tendon: bool,
+    /// Least and greatest activation: in OpenSim the controls of the muscle.
     pub activation_range: [f64; 2],
     /// Curves of force against length and velocity.
     pub curves: MuscleCurves,
@@ -174,19 +188,58 @@ pub struct ThelenCurves {
     pub velocity_shape: f64,
     /// Greatest force of a lengthening fibre, in multiples of the isometric one (`Flen`).
     pub lengthening_force: f64,
+    /// Share of the greatest lengthening force from which the curve continues as a straight line
+    /// (`fv_linear_extrap_threshold`).
+    pub straight_from: f64,
 }
 
-/// Parameters of the curves of Millard and others 2013; the defaults are those of OpenSim.
+/// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties and as OpenSim uses them: for
+/// a damped muscle (`fiber_damping` at least 0.001) or a rigid tendon the least active value and both slopes at the
+/// greatest velocities are 0, whatever the file has; otherwise they are at least .1 and half the slopes near these
+/// velocities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MillardCurves {
-    /// Active force against length: least, transition, greatest length [optimal fibre lengths], shallow slope of the
-    /// ascending part, least value.
+    /// Active force against length (`ActiveForceLengthCurve`): least, transition and greatest length [optimal fibre
+    /// lengths], slope of the shallow ascending part, least value.
     pub active: [f64; 5],
-    /// Force against velocity: slope at the greatest shortening, near it, isometric, at the greatest lengthening, near
-    /// it, greatest lengthening force, curviness of shortening and of lengthening.
+    /// Force against velocity (`ForceVelocityCurve`): slope at the greatest shortening, near it, isometric, at the
+    /// greatest lengthening, near it, greatest lengthening force, curviness of shortening and of lengthening.
     pub velocity: [f64; 8],
-    /// Passive force against length: strain at zero force, strain, stiffness at low and at unit force, curviness.
+    /// Passive force against length (`FiberForceLengthCurve`): strain at zero force, strain at unit force, stiffness at
+    /// low force, stiffness at unit force, curviness. The last three follow from the others where they are not stated.
     pub passive: [Option<f64>; 5],
+    /// Force of the tendon against its length (`TendonForceLengthCurve`): strain at unit force, stiffness at unit force,
+    /// force at the end of the toe, curviness. The last three follow from the first where they are not stated.
+    pub tendon: [Option<f64>; 4],
+    /// Damping of the fibre along itself (`fiber_damping`) [greatest isometric forces per greatest velocity].
+    pub fiber_damping: f64,
+}
+
+impl Default for ThelenCurves {
+    fn default() -> ThelenCurves {
+        ThelenCurves {
+            tendon_strain_at_max: 0.04,
+            fiber_strain_at_max: 0.6,
+            active_shape: 0.45,
+            passive_shape: 5.0,
+            velocity_shape: 0.25,
+            lengthening_force: 1.4,
+            straight_from: 0.95,
+        }
+    }
+}
+
+impl Default for MillardCurves {
+    /// The defaults of OpenSim for a damped muscle, which it uses unless `fiber_damping` is below 0.001.
+    fn default() -> MillardCurves {
+        MillardCurves {
+            active: [0.47 - 0.0259, 0.73, 1.8123, 0.8616, 0.0],
+            velocity: [0.0, 0.25, 5.0, 0.0, 0.15, 1.4, 0.6, 0.9],
+            passive: [Some(0.0), Some(0.7), None, None, None],
+            tendon: [Some(0.049), None, None, None],
+            fiber_damping: 0.1,
+        }
+    }
 }
 
 /// A motor at one coordinate.

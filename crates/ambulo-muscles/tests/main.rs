@@ -1,1 +1,18 @@
 //! Tests of the muscles against OpenSim 4.6, closed forms and identities.
+
+#![allow(clippy::disallowed_methods, reason = "expected values of tests may have the bits of the platform")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
+
+mod muscle_models;
+mod people;
+mod shared_data;
+
+mod built_in;
+mod import;
+mod loads;
+mod paths;
+mod round_trip;
+mod scaling;
+mod wrap_models;
+mod wrap_opensim;

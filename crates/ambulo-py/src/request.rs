@@ -2,7 +2,7 @@
 
 use crate::failure::{exception, refused};
 use ambulo::analysis::Adjustable;
-use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, PlateFoot};
+use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, MuscleStatements, PlateFoot};
 use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
 use ambulo::study::GroundSettings;
 use ambulo_cli::{Outputs, Request};
@@ -101,6 +101,7 @@ impl Given {
                 let angles: Vec<String> = given.list()?.iter().map(|given| given.text()).collect::<PyResult<_>>()?;
                 job.sensors.earth = Some(given.of_text(&angles.join(","))?);
             }
+            "muscles" => job.muscles = given.muscles()?,
             "plates" => {
                 let plates = given.value.cast::<PyDict>()?.iter();
                 let plate = |(plate, foot): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<PlateFoot> {
@@ -190,6 +191,14 @@ impl Named<'_, '_> {
 
     fn switch(&self) -> PyResult<bool> {
         self.value.is_truthy()
+    }
+
+    /// True for the defaults, or a dictionary of what differs from them, as in docs/REQUESTS.md.
+    fn muscles(&self) -> PyResult<Option<MuscleStatements>> {
+        match self.value.cast::<PyDict>() {
+            Ok(stated) => serde_json::from_value(json(stated)?).map(Some).map_err(|error| self.refused(error)),
+            Err(_) => Ok(self.switch()?.then(MuscleStatements::default)),
+        }
     }
 
     fn path(&self) -> PyResult<PathBuf> {

@@ -44,7 +44,7 @@ codes! {
         "The version of the model file is not one of the known versions."
         "Check the results, or save the model in a known version with OpenSim.";
     ModelIgnored "model.ignored" Note
-        "Muscles, other forces and geometry of the model are not used by inverse dynamics."
+        "Forces, controllers and geometry of the model are not used."
         "Nothing to do.";
     ModelMassless "model.massless" Warning
         "A body of the model has no mass."
@@ -60,6 +60,23 @@ codes! {
     ModelConstraint "model.constraint" Warning
         "A constraint of the model is not enforced; forces that pass through it are reported at the joints of the tree."
         "Interpret forces of the joints around the constraint with care, or use a model without it.";
+    // Muscles.
+    MusclesUnsupported "muscles.unsupported" Warning
+        "Muscles of a type that is not supported, or that wrap over a surface of such a type, were left out."
+        "Interpret forces of the other muscles with care: they do the work of those left out. Supported are \
+         Thelen2003Muscle and Millard2012EquilibriumMuscle, over cylinders and spheres.";
+    MusclesOff "muscles.off" Note
+        "Muscles that are switched off in the model were left out."
+        "Nothing to do; to use them, set `appliesForce` in the model.";
+    MusclesNoJoint "muscles.no_joint" Warning
+        "The path of a muscle crosses no joint that moves; the muscle was left out."
+        "Check the bodies of its points in the model.";
+    MusclesNoStrength "muscles.no_strength" Warning
+        "A muscle has no strength and was left out."
+        "Check its greatest isometric force in the model.";
+    MusclesInsideWrap "muscles.inside_wrap" Warning
+        "The path of a muscle has an end inside a surface over which it should wrap; it runs straight there."
+        "Move the point or the surface in the model.";
     // Input files.
     FileOdd "file.odd" Warning
         "A file deviates from its format; it was read with the assumption in the message."

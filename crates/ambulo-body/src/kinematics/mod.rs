@@ -11,6 +11,7 @@ mod body_motion;
 mod clinical_angles;
 mod flight_gravity;
 pub(crate) mod lanes;
+mod posture_sweep;
 pub(crate) mod skeleton_body;
 pub(crate) mod sweep;
 
@@ -31,4 +32,5 @@ pub use clinical_angles::{ClinicalAngles, clinical_angles};
 pub use flight_gravity::FlightGravity;
 #[doc(hidden)]
 pub use flight_gravity::WRONG_CLOCK;
+pub use posture_sweep::{JointMotion, PostureSweep};
 pub use trajectory::{Posture, Trajectory, TrajectoryError};

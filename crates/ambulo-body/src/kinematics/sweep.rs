@@ -325,6 +325,14 @@ fn arc_factor<const N: usize>(cosine: Lanes<N>, length: f64) -> [Lanes<N>; 3] {
     [0, 1, 2].map(|k| Lanes(found.map(|derivatives| derivatives[k])))
 }
 
+/// Velocity of the end of an arc relative to F, in world axes, while M turns with the angular velocity `omega` in F.
+pub(crate) fn arc_velocity(length: f64, index: usize, s: &Scratch<1>, omega: Vec3) -> Vec3 {
+    let (n, y) = (s.states[index + 1].rotation.col(1), s.joint_frames[index].col(1));
+    let [f, df, _] = arc_factor(n.dot(y), length);
+    let (rate, n, y) = (omega.cross(&n.lane(0)), n.lane(0), y.lane(0));
+    (n + y) * (df.0[0] * rate.dot(&y)) + rate * f.0[0]
+}
+
 /// The moment about the origin of M that has the power of a force on the end of an arc: ṗ = d (f' (w × n)·y (n + y) + f
 /// w × n) with the angular velocity w, so that the moment is n × d (f F + f' (F·(n + y)) y).
 #[inline(always)]

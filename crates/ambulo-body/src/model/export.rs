@@ -1,14 +1,14 @@
 //! Writes a [`Model`] as an OpenSim document.
 
 use super::osim_frame::frame;
+use super::osim_function::write as function;
 use super::{
-    Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Function, Joint, JointAxis, JointSpeeds,
-    Knots, Marker, Model,
+    Body, BodyId, Bushing, Coordinate, CoordinateId, Displacement, Drive, Joint, JointAxis, JointSpeeds, Marker, Model,
 };
 use crate::spatial::{Pose, Vec3, rotation};
 use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFunction, OsimJoint, OsimJointKind,
-    OsimMarker, OsimModel,
+    OsimMarker, OsimModel, OsimMuscles,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -53,6 +53,7 @@ pub fn to_osim(model: &Model) -> Result<OsimModel, ExportError> {
         constraints: model.coordinates().iter().filter_map(|c| coupler(model, c)).collect(),
         bushings: model.bushings().iter().map(|b| bushing(model, b)).collect(),
         markers: model.markers().iter().map(|m| marker(model, m)).collect(),
+        muscles: Ok(OsimMuscles::default()),
         frames: BTreeMap::new(),
         ignored: BTreeMap::new(),
         remarks: Vec::new(),
@@ -214,34 +215,6 @@ fn moving(model: &Model, axis: &JointAxis) -> OsimAxis {
         Displacement::Follows(id, curve) => (Some(model.coordinates()[id.index()].name.clone()), function(curve)),
     };
     OsimAxis { axis: axis.direction.into(), coordinate, function }
-}
-
-fn function(curve: &Function) -> OsimFunction {
-    match curve {
-        Function::Constant(value) => OsimFunction::Constant(*value),
-        Function::Linear { slope, intercept } => OsimFunction::Linear { slope: *slope, intercept: *intercept },
-        Function::Polynomial(coefficients) => OsimFunction::Polynomial(coefficients.clone()),
-        Function::SimmSpline(spline) => OsimFunction::SimmSpline(points(spline.knots())),
-        // A smoothing spline is the interpolating spline of its degree through its fitted values.
-        Function::NaturalSpline(spline) => OsimFunction::GcvSpline {
-            degree: spline.degree(),
-            knots: ambulo_formats::osim::Knots { x: spline.times().to_vec(), y: spline.fitted_values().collect() },
-            error_variance: 0.0,
-        },
-        Function::PiecewiseLinear(knots) => OsimFunction::PiecewiseLinear(points(knots)),
-        Function::PiecewiseConstant(knots) => OsimFunction::PiecewiseConstant(points(knots)),
-        Function::Step { start, end } => OsimFunction::Step { start: *start, end: *end },
-        Function::Sine { amplitude, omega, phase, offset } => {
-            OsimFunction::Sine { amplitude: *amplitude, omega: *omega, phase: *phase, offset: *offset }
-        }
-        Function::Scaled(scale, curve) => {
-            OsimFunction::Multiplier { scale: *scale, function: Box::new(function(curve)) }
-        }
-    }
-}
-
-fn points(knots: &Knots) -> ambulo_formats::osim::Knots {
-    ambulo_formats::osim::Knots { x: knots.x().to_vec(), y: knots.y().to_vec() }
 }
 
 fn coordinate(coordinate: &Coordinate) -> OsimCoordinate {

@@ -1,13 +1,13 @@
 //! Reads a [`Model`] from an OpenSim document.
 
 use super::osim_frame::pose;
+use super::osim_function;
 use super::scapulothoracic;
 use super::{
     Body, BodyId, Bushing, BushingEnd, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint,
-    JointAxis, JointSpeeds, Knots, Marker, Model, ModelError, Resistance, SimmSpline,
+    JointAxis, JointSpeeds, Marker, Model, ModelError, Resistance,
 };
 use crate::findings::{Code, Finding, Findings};
-use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
 use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind,
@@ -366,39 +366,7 @@ fn import_axis(joint: &OsimJoint, axis: &OsimAxis, first: usize) -> Result<Joint
 
 fn import_function(joint: &str, line: usize, function: &OsimFunction) -> Result<Function, ImportError> {
     let error = |reason: String| ImportError::Function { joint: joint.to_owned(), line, reason };
-    let points = |knots: &ambulo_formats::osim::Knots| {
-        Knots::new(knots.x.clone(), knots.y.clone())
-            .ok_or_else(|| error("the abscissae of its knots do not increase".into()))
-    };
-    Ok(match function {
-        OsimFunction::Constant(value) => Function::Constant(*value),
-        OsimFunction::Linear { slope, intercept } => Function::Linear { slope: *slope, intercept: *intercept },
-        OsimFunction::Polynomial(coefficients) => Function::Polynomial(coefficients.clone()),
-        OsimFunction::SimmSpline(knots) => Function::SimmSpline(
-            SimmSpline::new(points(knots)?).ok_or_else(|| error("a spline needs two points".into()))?,
-        ),
-        OsimFunction::PiecewiseLinear(knots) => Function::PiecewiseLinear(points(knots)?),
-        OsimFunction::PiecewiseConstant(knots) => Function::PiecewiseConstant(points(knots)?),
-        OsimFunction::Step { start, end } => Function::Step { start: *start, end: *end },
-        OsimFunction::Sine { amplitude, omega, phase, offset } => {
-            Function::Sine { amplitude: *amplitude, omega: *omega, phase: *phase, offset: *offset }
-        }
-        OsimFunction::Multiplier { scale, function } => {
-            Function::Scaled(*scale, Box::new(import_function(joint, line, function)?))
-        }
-        OsimFunction::GcvSpline { degree, knots, error_variance } => {
-            let smoothing =
-                if *error_variance > 0.0 { Smoothing::ErrorVariance(*error_variance) } else { Smoothing::Interpolate };
-            let degree = match degree {
-                1 => SplineDegree::Linear,
-                3 => SplineDegree::Cubic,
-                7 => SplineDegree::Heptic,
-                _ => SplineDegree::Quintic,
-            };
-            let fitter = SplineFitter::new(degree, &knots.x).map_err(|e| error(e.to_string()))?;
-            Function::NaturalSpline(fitter.fit(&knots.y, smoothing).map_err(|e| error(e.to_string()))?)
-        }
-    })
+    osim_function::read(function).map_err(error)
 }
 
 /// Rotation or translation if an axis follows the coordinate with slope one, otherwise coupled (OpenSim's rule,

@@ -17,6 +17,8 @@ mod knots;
 pub mod marker_set;
 #[doc(hidden)]
 pub mod osim_frame;
+#[doc(hidden)]
+pub mod osim_function;
 mod posture;
 mod scaled;
 mod scapulothoracic;

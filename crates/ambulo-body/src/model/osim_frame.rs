@@ -11,7 +11,7 @@ pub fn pose(frame: &OsimFrame) -> Pose {
 }
 
 /// The frame with this pose in a body.
-pub(super) fn frame(body: String, pose: &Pose) -> OsimFrame {
+pub fn frame(body: String, pose: &Pose) -> OsimFrame {
     let row = |i: usize| std::array::from_fn(|j| pose.rotation[(i, j)]);
     OsimFrame { body, rotation: [row(0), row(1), row(2)], translation_m: pose.translation.into() }
 }

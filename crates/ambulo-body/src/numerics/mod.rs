@@ -31,7 +31,8 @@ use serde::Deserialize;
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub use cardinal_spline::{OVERLAP, quintic_splines};
 pub use cma::Cma;
-pub(crate) use dense::DenseLu;
+#[doc(hidden)]
+pub use dense::DenseLu;
 pub use harmonics::Harmonics;
 #[doc(hidden)]
 pub use least_squares::Residuals;

@@ -1,5 +1,6 @@
 //! Options of `ambulo forces`.
 
+use super::muscles::MuscleArgs;
 use super::values::{
     kilograms, metres, number, one_of, order, outputs_of_run, seconds, segments, zero_or_more_seconds,
 };
@@ -39,8 +40,8 @@ compared with the measurement. With --track, motion and forces agree to rounding
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
 events.csv, stances.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json,
-report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --device
-moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates
+report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --muscles
+muscles.sto, reactions_contact.sto and, from electromyograms, emg.sto; with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates
 grf_measured.mot. The results of an earlier run in DIR are replaced as a whole; other files stay.
 docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is always written.
 
@@ -148,6 +149,8 @@ pub(crate) struct ForcesArgs {
     /// A point mass fixed to a body, with its position in the body's frame in metres; may be repeated.
     #[arg(long, value_name = "BODY:KG[:X,Y,Z]")]
     pub(crate) add_mass: Vec<AddedMass>,
+    #[command(flatten)]
+    pub(crate) muscles: MuscleArgs,
     /// Limits of the feasibility checks: .toml (docs/JUDGEMENT.md) [default: built in].
     #[arg(long, value_name = "FILE")]
     pub(crate) thresholds: Option<PathBuf>,
@@ -198,6 +201,7 @@ impl ForcesArgs {
             person: args.person,
             device: args.device,
             added_mass: args.add_mass,
+            muscles: args.muscles.statements(),
             thresholds: args.thresholds,
             setups: args.setup,
             settings: self.settings(),

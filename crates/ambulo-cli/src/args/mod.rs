@@ -4,6 +4,7 @@ mod batch;
 mod exchange;
 mod forces;
 pub(crate) mod json;
+mod muscles;
 mod report;
 mod run;
 mod session;

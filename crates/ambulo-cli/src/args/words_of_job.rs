@@ -4,8 +4,10 @@
 use super::forces::Outputs;
 use super::words::Words;
 use ambulo::analysis::Adjustable;
-use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, Processing};
+use ambulo::job::{Filter, Job, MarkerFitting, ModelChoice, MuscleStatements, Processing};
 use ambulo::kinematics::calibration::{HipRegression, KneeAxis};
+use ambulo::muscles::strength::Pennation;
+use ambulo::muscles::wrap::WrapRule;
 use ambulo::study::GroundSettings;
 use ambulo_results::Convention;
 use std::ffi::OsString;
@@ -32,6 +34,7 @@ pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {
     words.path("--device", job.device.as_ref());
     job.plates.iter().for_each(|plate| words.value("--plate", Some(plate)));
     job.added_mass.iter().for_each(|added| words.value("--add-mass", Some(added)));
+    of_muscles(job.muscles.as_ref(), &mut words);
     words.path("--thresholds", job.thresholds.as_ref());
     words.value("--mass", job.size.mass_kg);
     words.value("--height", job.size.height_m);
@@ -40,6 +43,21 @@ pub(super) fn words(job: &Job, outputs: &Outputs) -> Vec<OsString> {
     of_settings(&job.settings, &mut words);
     words.value("--convention", Some(outputs.convention).filter(|used| *used != Convention::default()));
     words.0
+}
+
+fn of_muscles(muscles: Option<&MuscleStatements>, words: &mut Words) {
+    words.flag("--muscles", muscles.is_some());
+    let Some(stated) = muscles else { return };
+    let defaults = MuscleStatements::default();
+    words.path("--reserves", stated.reserves.as_ref());
+    words.path("--emg", stated.emg.as_ref());
+    let wraps = Some(stated.wraps).filter(|wraps| *wraps != defaults.wraps);
+    words.value("--wraps", wraps.map(|wraps| word(&WrapRule::ALL, wraps)));
+    let pennation = Some(stated.pennation).filter(|pennation| *pennation != defaults.pennation);
+    words.value("--pennation", pennation.map(|pennation| word(&Pennation::ALL, pennation)));
+    let exponent = Some(stated.exponent).filter(|exponent| exponent.to_bits() != defaults.exponent.to_bits());
+    words.value("--exponent", exponent);
+    words.value("--condyles", stated.condyles_m);
 }
 
 fn of_settings(settings: &Processing, words: &mut Words) {

@@ -30,6 +30,11 @@ impl OsimFrame {
         placed
     }
 
+    /// A frame with origin [m] and body-fixed X-Y-Z angles [rad] in this frame.
+    pub(super) fn with_offset(&self, translation: [f64; 3], angles: [f64; 3]) -> OsimFrame {
+        self.carry(translation, body_fixed_xyz(angles))
+    }
+
     /// The pose in the body of a frame that is given in this frame.
     fn carry(&self, translation: [f64; 3], rotation: [[f64; 3]; 3]) -> OsimFrame {
         OsimFrame {
@@ -96,6 +101,27 @@ impl<'d> Frames<'d> {
             Some(path) => self.resolve(node, path),
             None => Err(xml::error_at(node, format!("no <socket_{name}>"), "the name of a body or of an offset frame")),
         }
+    }
+
+    /// The frame that contains an element: a body, ground or an offset frame.
+    pub(super) fn of_component(&self, node: Node<'_, '_>) -> Result<OsimFrame, Error> {
+        let is_frame = |n: &Node<'_, '_>| matches!(n.tag_name().name(), "Body" | "Ground" | "PhysicalOffsetFrame");
+        let owner = node.ancestors().skip(1).find(is_frame);
+        let path = match owner {
+            Some(frame) if frame.has_tag_name("PhysicalOffsetFrame") => {
+                format!("{}/{}", owner_of(frame), name_of(frame))
+            }
+            Some(frame) if frame.has_tag_name("Ground") => "ground".to_owned(),
+            Some(frame) => name_of(frame).to_owned(),
+            None => String::new(),
+        };
+        self.lookup("", &path, 0).ok_or_else(|| {
+            xml::error_at(
+                node,
+                "a place outside the bodies of the model".into(),
+                "an element inside a <Body> or <Ground>",
+            )
+        })
     }
 
     /// The frame with this name or path, resolved from `node`: its own frames first, then bodies, then any frame.

@@ -1,28 +1,38 @@
-//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers, bushings and markers, as in the document.
+//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers, bushings, markers, muscles with their paths and wrap
+//! objects, and motors at coordinates, as in the document.
 //!
 //! Document versions 20303 to 40600 are read, in both layouts: joints nested in their child body with
 //! `location_in_parent` (to 30500), and joints in a `JointSet` with offset frames (from 30505), the frames named by
 //! connectors, by `..._connectee_name` or by `socket_...` elements. Other versions are read as well, with a remark.
 //!
 //! Lengths are metres, masses kg, inertias kg.m² about the mass centre, angles radians, as the format defines them.
-//! Elements without a role in rigid-body dynamics (muscles, wrapping, geometry, controllers) are counted in
-//! [`OsimModel::ignored`], by the tag of its element.
+//! Other elements (controllers, contact geometry, other forces; muscles and wrap objects of types that are not read) are
+//! counted in [`OsimModel::ignored`], by the tag of the element.
 
 mod bushing;
 mod constraint;
+mod force_set;
 mod frame;
 mod function;
 mod joint;
 mod marker_set;
+mod muscle;
+mod path;
 mod write;
+mod write_muscles;
 
 pub use bushing::OsimBushing;
 pub use constraint::OsimConstraint;
+pub use force_set::OsimForceSet;
 pub use function::{Knots, OsimFunction};
 pub use joint::{OsimAxis, OsimCoordinate, OsimJoint, OsimJointKind};
 pub use marker_set::OsimMarkerSet;
 #[doc(hidden)]
 pub use marker_set::OsimSetMarker;
+pub use muscle::{
+    OsimCoordinateActuator, OsimMuscle, OsimMuscleCurves, OsimMuscleKind, OsimMuscleParameters, OsimMuscles,
+};
+pub use path::{OsimPath, OsimPathPoint, OsimPathWrap, OsimPointPlace, OsimWrapObject, OsimWrapShape};
 
 use crate::error::{Error, Remark, quoted};
 use crate::xml;
@@ -54,6 +64,9 @@ pub struct OsimModel {
     pub bushings: Vec<OsimBushing>,
     /// Markers in document order.
     pub markers: Vec<OsimMarker>,
+    /// Muscles, wrap objects and motors at coordinates, or why they cannot be read: the rest of the model does not need
+    /// them.
+    pub muscles: Result<OsimMuscles, Error>,
     /// Offset frames of bodies, joints and other components, by `owner/name`.
     pub frames: BTreeMap<String, OsimFrame>,
     /// Number of ignored elements, by tag.
@@ -173,6 +186,7 @@ fn read_model(model: Node<'_, '_>, document_version: u32, remarks: Vec<Remark>) 
         constraints,
         bushings,
         markers,
+        muscles: muscle::of_model(model, &frames),
         frames: frames.by_owner(),
         ignored: count_ignored(model),
         remarks,
@@ -215,18 +229,21 @@ fn read_inertia(body: Node<'_, '_>) -> Result<[f64; 6], Error> {
     Ok(inertia)
 }
 
-/// Counts components without a role in the dynamics, by tag, within their sets.
+/// Counts the components that are not read, by tag, within their sets.
 fn count_ignored(model: Node<'_, '_>) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let sets = ["ForceSet", "ControllerSet", "ProbeSet", "ContactGeometrySet", "ComponentSet"];
-    let listed = sets.iter().flat_map(|set| members(model, set)).filter(|node| !node.has_tag_name(bushing::TAG));
-    let wrapped = model.descendants().filter(|n| n.tag_name().name().starts_with("Wrap") && is_wrap_object(*n));
+    let is_read = |tag: &str| tag == bushing::TAG || muscle::is_read(tag);
+    let listed = sets.iter().flat_map(|set| members(model, set)).filter(|node| !is_read(node.tag_name().name()));
+    let is_read = |tag: &str| matches!(tag, path::CYLINDER | path::SPHERE);
+    let wrapped = model.descendants().filter(|n| path::is_wrap_object(*n) && !is_read(n.tag_name().name()));
     for node in listed.chain(wrapped) {
         *counts.entry(node.tag_name().name().to_owned()).or_insert(0) += 1;
     }
     counts
 }
 
-fn is_wrap_object(node: Node<'_, '_>) -> bool {
-    matches!(node.tag_name().name(), "WrapSphere" | "WrapCylinder" | "WrapEllipsoid" | "WrapTorus")
+/// The name at the end of a path of components.
+fn last_part(path: &str) -> &str {
+    path.rsplit('/').find(|part| !part.is_empty()).unwrap_or(path)
 }

@@ -1,16 +1,17 @@
-//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, bushings, markers.
+//! Models as documents that OpenSim 4 loads: bodies, joints, coordinates, couplers, bushings, markers, muscles.
 //!
 //! Numbers are written such that they read back to the same bits, except orientations of frames, which are written as
 //! angles and read back to rounding.
 
 use super::function::DEEPEST;
+use super::write_muscles;
 use super::{
     Knots, OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint,
     OsimJointKind, OsimMarker, OsimModel,
 };
 use crate::error::{Error, quoted};
 use crate::xml::escaped;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Document version of the layout that is written.
 const VERSION: u32 = 40000;
@@ -19,23 +20,28 @@ impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// Constraints other than couplers of coordinates; numbers that are not finite.
+    /// Constraints other than couplers of coordinates; muscles that could not be read, muscles and wrap objects of types
+    /// that are not read; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
-        let bodies = self.bodies.iter().map(body).collect::<Result<String, Error>>()?;
+        let muscles = self.muscles.as_ref().map_err(Clone::clone)?;
+        let wraps = write_muscles::wrap_sets(muscles)?;
+        let bodies = self.bodies.iter().map(|b| body(b, &wraps)).collect::<Result<String, Error>>()?;
         let joints = self.joints.iter().map(joint).collect::<Result<String, Error>>()?;
         let bushings = self.bushings.iter().map(bushing).collect::<Result<String, Error>>()?;
+        let forces = bushings + &write_muscles::forces(muscles, &self.joints)?;
         let markers = self.markers.iter().map(marker).collect::<Result<String, Error>>()?;
         let mut out = format!("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument Version=\"{VERSION}\">\n");
         out += &format!("\t<Model name=\"{}\">\n", escaped(&self.name));
         out += &element(2, "gravity", &numbers(&self.gravity)?);
+        out += &write_muscles::ground(&wraps);
         out += &set("BodySet", "bodyset", &bodies);
         out += &set("JointSet", "jointset", &joints);
         if !constraints.is_empty() {
             out += &set("ConstraintSet", "constraintset", &constraints);
         }
-        if !bushings.is_empty() {
-            out += &holder(2, "ForceSet", "forceset", &(group(3, "objects", &bushings) + &self.groups()));
+        if !forces.is_empty() {
+            out += &holder(2, "ForceSet", "forceset", &(group(3, "objects", &forces) + &self.groups()));
         }
         if !markers.is_empty() {
             out += &set("MarkerSet", "markerset", &markers);
@@ -59,28 +65,28 @@ impl OsimModel {
     }
 }
 
-fn unknown(found: String, expected: &str) -> Error {
+pub(super) fn unknown(found: String, expected: &str) -> Error {
     Error::Record { found, expected: expected.to_owned() }
 }
 
-fn numbers(values: &[f64]) -> Result<String, Error> {
+pub(super) fn numbers(values: &[f64]) -> Result<String, Error> {
     if let Some(odd) = values.iter().find(|value| !value.is_finite()) {
         return Err(unknown(odd.to_string(), "finite numbers"));
     }
     Ok(values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
 }
 
-fn element(depth: usize, tag: &str, text: &str) -> String {
+pub(super) fn element(depth: usize, tag: &str, text: &str) -> String {
     format!("{}<{tag}>{}</{tag}>\n", "\t".repeat(depth), escaped(text))
 }
 
 /// Writes a named element around others.
-fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
+pub(super) fn holder(depth: usize, tag: &str, name: &str, content: &str) -> String {
     let indent = "\t".repeat(depth);
     format!("{indent}<{tag} name=\"{}\">\n{content}{indent}</{tag}>\n", escaped(name))
 }
 
-fn group(depth: usize, tag: &str, content: &str) -> String {
+pub(super) fn group(depth: usize, tag: &str, content: &str) -> String {
     let indent = "\t".repeat(depth);
     format!("{indent}<{tag}>\n{content}{indent}</{tag}>\n")
 }
@@ -89,8 +95,10 @@ fn set(tag: &str, name: &str, objects: &str) -> String {
     holder(2, tag, name, &group(3, "objects", objects))
 }
 
-fn body(body: &OsimBody) -> Result<String, Error> {
-    let content = element(5, "mass", &numbers(&[body.mass_kg])?)
+fn body(body: &OsimBody, wraps: &BTreeMap<&str, String>) -> Result<String, Error> {
+    let wraps = wraps.get(body.name.as_str()).map_or("", String::as_str);
+    let content = wraps.to_owned()
+        + &element(5, "mass", &numbers(&[body.mass_kg])?)
         + &element(5, "mass_center", &numbers(&body.mass_center_m)?)
         + &element(5, "inertia", &numbers(&body.inertia)?);
     Ok(holder(4, "Body", &body.name, &content))
@@ -154,11 +162,11 @@ fn coordinate(coordinate: &OsimCoordinate) -> Result<String, Error> {
     Ok(holder(6, "Coordinate", &coordinate.name, &content))
 }
 
-fn path(body: &str) -> String {
+pub(super) fn path(body: &str) -> String {
     if super::is_ground(body) { "/ground".to_owned() } else { format!("/bodyset/{body}") }
 }
 
-fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
+pub(super) fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
     let content = element(7, "socket_parent", &path(&frame.body))
         + &element(7, "translation", &numbers(&frame.translation_m)?)
         + &element(7, "orientation", &numbers(&angles(&frame.rotation))?);
@@ -166,7 +174,7 @@ fn frame(name: &str, frame: &OsimFrame) -> Result<String, Error> {
 }
 
 /// Body-fixed X-Y-Z angles of a rotation, R = Rx(a) Ry(b) Rz(c) [rad].
-fn angles(r: &[[f64; 3]; 3]) -> [f64; 3] {
+pub(super) fn angles(r: &[[f64; 3]; 3]) -> [f64; 3] {
     // Turns -0 into 0, which is different as text.
     let plain = |angle: f64| angle + 0.0;
     let b = libm::asin(r[0][2].clamp(-1.0, 1.0));
@@ -226,7 +234,7 @@ fn marker(marker: &OsimMarker) -> Result<String, Error> {
 }
 
 /// The element of a function, indented by `depth`; without a `name` if its parent has one.
-fn function(depth: usize, name: &str, function: &OsimFunction) -> Result<String, Error> {
+pub(super) fn function(depth: usize, name: &str, function: &OsimFunction) -> Result<String, Error> {
     nested(depth, name, function, 0)
 }
 

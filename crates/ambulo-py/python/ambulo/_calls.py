@@ -95,6 +95,7 @@ def forces(
     consistent: bool | str | None = None,
     device: Recording | Table | _Path | None = None,
     add_mass: Sequence[str] | None = None,
+    muscles: bool | Mapping[str, Any] = False,
     thresholds: _Path | None = None,
     keep: Sequence[str] | None = None,
 ) -> Result:
@@ -184,6 +185,9 @@ def forces(
         Joint moments of a worn device [N.m].
     add_mass : sequence of str, optional
         Point masses fixed to bodies: ``"torso:2.5:-0.1,0.3,0"``, kilograms and metres.
+    muscles : bool or mapping, optional
+        Compute muscle forces and joint contact loads (`Result.muscles`, docs/MUSCLES.md): True, or what differs from the defaults:
+        ``{"reserves": "reserves.xml", "emg": "emg.sto", "wraps": "opensim", "exponent": 3, "weights": {"soleus_r": 2}, "condyles_m": 0.04}``.
     thresholds : str or path-like, optional
         Limits of a person for the verdict: ``.toml``.
     keep : sequence of str, optional
@@ -254,6 +258,7 @@ def forces(
         "order": order,
         "consistent": consistent,
         "add_mass": None if add_mass is None else list(add_mass),
+        "muscles": dict(muscles) if isinstance(muscles, Mapping) else muscles,
         "thresholds": thresholds,
         "keep": keep.split(",") if isinstance(keep, str) else keep and list(keep),
     }

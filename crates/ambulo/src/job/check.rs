@@ -4,9 +4,15 @@ use super::error::{Field, JobError};
 use super::{ForceFiles, Job};
 use crate::motion::filter::MAX_ORDER;
 use crate::study::GroundSettings;
+use std::ops::RangeInclusive;
 
 /// Longest delay between force plates and cameras that is a delay, and not another recording [s].
 const LONGEST_DELAY_S: f64 = 60.0;
+
+/// Exponents of activations for which the least sum is unique and its solution is found.
+const EXPONENTS: RangeInclusive<f64> = 1.5..=10.0;
+/// Distance of the contacts of the condyles of a knee, from children to the largest adults [m].
+const CONDYLES_M: RangeInclusive<f64> = 0.01..=0.1;
 
 impl Job {
     /// Rejects statements of one caller that contradict each other, before anything is read. A job that was completed
@@ -59,7 +65,27 @@ impl Job {
             );
             return Err(JobError::new(&[Field::ForceDelay], what));
         }
+        self.check_muscles()?;
         self.check_range()
+    }
+
+    fn check_muscles(&self) -> Result<(), JobError> {
+        let Some(muscles) = &self.muscles else { return Ok(()) };
+        let refused = |field, what: String| Err(JobError::new(&[field], what));
+        if !EXPONENTS.contains(&muscles.exponent) {
+            let [least, most] = [EXPONENTS.start(), EXPONENTS.end()];
+            let what = format!("found the exponent {} of activations; expected {least} to {most}", muscles.exponent);
+            return refused(Field::Exponent, what);
+        }
+        if let Some(condyles_m) = muscles.condyles_m.filter(|condyles_m| !CONDYLES_M.contains(condyles_m)) {
+            let [least, most] = [CONDYLES_M.start(), CONDYLES_M.end()];
+            let what = format!("found condyles {condyles_m} m apart; expected {least} to {most} m");
+            return refused(Field::Condyles, what);
+        }
+        if let Some((name, weight)) = muscles.weights.iter().find(|(_, w)| !(w.is_finite() && **w > 0.0)) {
+            return refused(Field::Muscles, format!("found the weight {weight} of `{name}`; expected a number above 0"));
+        }
+        Ok(())
     }
 
     /// Rejects a time range that ends before it starts.

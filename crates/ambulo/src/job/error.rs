@@ -77,6 +77,16 @@ pub enum Field {
     Functional,
     /// The residual reduction.
     ResidualReduction,
+    /// [`Job::muscles`](super::Job::muscles)
+    Muscles,
+    /// The motors in [`Job::muscles`](super::Job::muscles).
+    Reserves,
+    /// The electromyograms in [`Job::muscles`](super::Job::muscles).
+    Emg,
+    /// The exponent in [`Job::muscles`](super::Job::muscles).
+    Exponent,
+    /// The distance of the condyles in [`Job::muscles`](super::Job::muscles).
+    Condyles,
 }
 
 impl Field {
@@ -113,6 +123,11 @@ impl Field {
             Field::KneeAxis => "choice of the knee axes",
             Field::Functional => "movement that shows the joints",
             Field::ResidualReduction => "residual reduction",
+            Field::Muscles => "muscles",
+            Field::Reserves => "reserves",
+            Field::Emg => "electromyograms",
+            Field::Exponent => "exponent of the activations",
+            Field::Condyles => "distance of the condyles",
         }
     }
 }

@@ -40,6 +40,7 @@ mod kind;
 mod laboratory;
 mod markers;
 mod model_file;
+mod muscles;
 mod read_once;
 mod reading;
 pub(crate) mod sensors;
@@ -59,6 +60,7 @@ pub use error::{Field, FileError, JobError};
 pub use files::{Files, ending, table};
 pub use laboratory::laboratory_file;
 pub use model_file::model;
+pub use muscles::MuscleStatements;
 pub use reading::{ReadJob, Reader};
 pub use settings::Processing;
 pub use subject::read_header;
@@ -129,6 +131,8 @@ pub struct Job {
     #[serde(deserialize_with = "json::each")]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub added_mass: Vec<AddedMass>,
+    /// How muscle forces are found; `None` finds none.
+    pub muscles: Option<MuscleStatements>,
     /// Limits of a person, for the verdict.
     pub thresholds: Option<PathBuf>,
     /// Set-ups of OpenSim's tools, at most one of each.
@@ -222,6 +226,7 @@ impl Default for Job {
             person: None,
             device: None,
             added_mass: Vec::new(),
+            muscles: None,
             thresholds: None,
             setups: Vec::new(),
             settings: Processing::default(),
@@ -265,7 +270,8 @@ impl Job {
         let ForceFiles { table, loads, .. } = &self.forces;
         let others = [&self.recording, &self.standing, &self.marker_set, &self.smpl, table, loads];
         let more = [&self.person, &self.device, &self.thresholds, &self.functional];
-        let files = others.into_iter().chain(more).flatten().chain(&self.setups).map(PathBuf::as_path);
+        let of_muscles = self.muscles.iter().flat_map(|muscles| [&muscles.reserves, &muscles.emg]);
+        let files = others.into_iter().chain(more).chain(of_muscles).flatten().chain(&self.setups).map(PathBuf::as_path);
         files.chain(self.model_file()).chain(self.markers.as_deref().map(Path::new))
     }
 

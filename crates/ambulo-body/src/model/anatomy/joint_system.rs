@@ -42,6 +42,34 @@ pub(crate) struct JointSystem {
     pub(crate) planes: Planes,
 }
 
+/// A joint of a leg.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum LegJoint {
+    /// The hip.
+    Hip,
+    /// The knee.
+    Knee,
+    /// The ankle.
+    Ankle,
+}
+
+impl LegJoint {
+    /// All joints, from the hip down.
+    pub const ALL: [LegJoint; 3] = [LegJoint::Hip, LegJoint::Knee, LegJoint::Ankle];
+}
+
+/// Which wrench acts in a joint of a leg, and in which axes it is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LegJointAxes {
+    /// The body whose joint to its parent is this joint.
+    pub body: BodyId,
+    /// +1 if the wrench of the parent on this body acts on the distal segment, -1 in a tree whose root is the foot.
+    pub on_distal: f64,
+    /// Forward, up and to the right in the world: axes e₂, e₃ and e₁ of the joint coordinate system. A leg that moves in
+    /// the sagittal plane only has the axes of the neutral posture, fixed in the distal segment.
+    pub axes: [Vec3; 3],
+}
+
 impl JointSystem {
     /// e₂, e₃ and e₁ in the world, for the rotations `world_from_body` of the bodies: forward, up and to the right.
     #[inline]

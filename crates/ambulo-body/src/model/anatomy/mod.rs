@@ -17,6 +17,7 @@ mod region;
 mod sole;
 
 pub(crate) use joint_system::JointSystem;
+pub use joint_system::{LegJoint, LegJointAxes};
 pub use movement::{Meaning, Movement};
 pub use pelvic_frame::{PelvicFrame, PelvicFrameError};
 pub use region::Region;
@@ -221,6 +222,28 @@ impl Anatomy {
 }
 
 impl Model {
+    /// A joint of a leg and its axes, for the rotations `world_from_body` of the bodies. `None` if there is no such leg.
+    #[must_use]
+    pub fn leg_joint(&self, joint: LegJoint, side: Side, rotation: impl Fn(BodyId) -> Mat3) -> Option<LegJointAxes> {
+        let anatomy = self.anatomy();
+        let leg = anatomy.legs[side].as_ref()?;
+        if let Some(systems) = &leg.systems {
+            let system = &systems[joint as usize];
+            return Some(LegJointAxes { body: system.joint, on_distal: system.on_distal, axes: system.axes(rotation) });
+        }
+        let neutral = anatomy.neutral.as_ref()?;
+        let (body, distal) = match joint {
+            LegJoint::Hip => (leg.hip, leg.thigh),
+            LegJoint::Knee => (leg.knee, leg.shank),
+            LegJoint::Ankle => (leg.ankle, leg.foot),
+        };
+        let turned = rotation(distal) * neutral.poses[distal.index()].rotation.transpose() * neutral.axes;
+        let parent = |id: &BodyId| self.bodies[id.index()].joint.parent;
+        let carries = std::iter::successors(Some(distal), parent).any(|ancestor| ancestor == body);
+        let on_distal = if carries { 1.0 } else { -1.0 };
+        Some(LegJointAxes { body, on_distal, axes: [0, 1, 2].map(|k| turned.column(k).into()) })
+    }
+
     /// Stature and leg length, estimated from thigh and shank, or from the mass of a model without legs.
     #[must_use]
     pub fn stature(&self) -> Stature {

@@ -65,6 +65,9 @@ impl Debug for Recorded<'_> {
             .field("replace", &format_args!("ReplaceArgs {{ force: false }}"))
             .field("check", &format_args!("CheckArgs {{ check: false }}"))
             .field("print", &format_args!("PrintArgs {{ json: false, quiet: false, verbose: false }}"));
+        if let Some(muscles) = &job.muscles {
+            record.field("muscles", muscles);
+        }
         if settings.force_delay_s.abs() > 0.0 {
             record.field("force_delay", &settings.force_delay_s);
         }

@@ -1,0 +1,94 @@
+//! The shortest path between two points over a cylinder.
+//!
+//! Seen along the axis, a path that turns around the cylinder is a tangent, an arc and a tangent:
+//!   T1 at γa = acos(r/ρa) from a, T2 at γb = acos(r/ρb) before b, arc φ = |turn from a to b| - γa - γb.
+//! Both tangents and the arc lie on a surface that unrolls into a plane, where the shortest path is a straight line.
+//! Height is therefore proportional to the length ℓ = da + rφ + db seen along the axis:
+//!   z1 = za + (zb - za) da/ℓ,   z2 = zb - (zb - za) db/ℓ,   arc = rφ √(ℓ² + (zb - za)²) / ℓ.
+//!
+//! | code | symbol | unit | |
+//! |---|---|---|---|
+//! | `distance` | ρ | m | from the axis |
+//! | `tangent` | d | m | length of a tangent seen along the axis, √(ρ² - r²) |
+//! | `turn` | | rad | angle from a to b around the axis, positive about z |
+//!
+//! Source: own derivation; compared with OpenSim 4.6 in tests/wrap_opensim.rs.
+
+use super::{Arc, Contact, Passage};
+use crate::set::Quadrant;
+use ambulo_body::numerics::elementary::{atan2, hypot};
+use ambulo_body::spatial::Vec3;
+use std::f64::consts::TAU;
+
+/// The shortest path from `a` to `b` in the axes of a cylinder of this radius and length.
+pub(super) fn shortest([a, b]: [Vec3; 2], [radius, length]: [f64; 2], quadrant: Option<Quadrant>) -> Passage {
+    let [from, to] = [a, b].map(|place| End::of(place, radius));
+    let (Some(from), Some(to)) = (from, to) else { return Passage::Straight(Contact::EndInside) };
+    let turn = turn(a, b, quadrant);
+    let angle = turn.abs() - from.angle - to.angle;
+    // A turn that is not a number (no point is at the axis, but a radius may be zero) is no arc either.
+    if !(angle > 0.0) {
+        return Passage::Straight(Contact::Free);
+    }
+    let sense = if turn > 0.0 { 1.0 } else { -1.0 };
+    let flat = from.tangent + radius * angle + to.tangent;
+    let rise = (b.z - a.z) / flat;
+    let heights = [a.z + rise * from.tangent, b.z - rise * to.tangent];
+    let half = length / 2.0;
+    if heights.iter().all(|z| *z > half) || heights.iter().all(|z| *z < -half) {
+        return Passage::Straight(Contact::BeyondEnds);
+    }
+    Passage::Over(Arc {
+        from: from.touch(a, sense, heights[0]),
+        to: to.touch(b, -sense, heights[1]),
+        length: radius * angle * hypot(1.0, rise),
+        angle,
+        sense,
+        crosses: turn.abs().min(TAU - turn.abs()) > from.angle + to.angle,
+    })
+}
+
+/// Angle from a to b around the z axis: the shorter way, or the way that does not cross the half-plane behind the axis.
+fn turn(a: Vec3, b: Vec3, quadrant: Option<Quadrant>) -> f64 {
+    let front = match quadrant {
+        Some(Quadrant { axis: axis @ (0 | 1), positive }) => {
+            let sign = if positive { 1.0 } else { -1.0 };
+            if axis == 0 { [sign, 0.0] } else { [0.0, sign] }
+        }
+        // The side along its own axis is no side of a cylinder.
+        Some(_) | None => return atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y),
+    };
+    let from_front = |p: Vec3| atan2(front[0] * p.y - front[1] * p.x, front[0] * p.x + front[1] * p.y);
+    from_front(b) - from_front(a)
+}
+
+/// One end of the path, seen along the axis.
+struct End {
+    /// Radius over distance from the axis, and tangent over distance: cosine and sine of the angle to the tangent point.
+    cos_sin: [f64; 2],
+    angle: f64,
+    tangent: f64,
+    /// Radius over distance.
+    shrink: f64,
+}
+
+impl End {
+    /// `None` inside the cylinder.
+    fn of(place: Vec3, radius: f64) -> Option<End> {
+        let distance = hypot(place.x, place.y);
+        if !(distance >= radius) || distance <= 0.0 {
+            return None;
+        }
+        let tangent = ((distance - radius) * (distance + radius)).sqrt();
+        let shrink = radius / distance;
+        Some(End { cos_sin: [shrink, tangent / distance], angle: atan2(tangent, radius), tangent, shrink })
+    }
+
+    /// The tangent point in this sense of turning, at this height.
+    fn touch(&self, place: Vec3, sense: f64, height: f64) -> Vec3 {
+        let [cos, sin] = self.cos_sin;
+        let sin = sense * sin;
+        let [x, y] = [place.x * self.shrink, place.y * self.shrink];
+        Vec3::new(cos * x - sin * y, sin * x + cos * y, height)
+    }
+}
