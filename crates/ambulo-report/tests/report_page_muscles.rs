@@ -1,10 +1,11 @@
 //! Muscles on the report page: activations, electromyograms, joint contact loads and reserves, from made files.
 
 use crate::report_pages::{Files, Shown, page_of, recorded};
+use ambulo::muscles::emg::{AnatomicalMuscle, normal_timing};
 use ambulo_formats::table::Table;
 use ambulo_report::page::report_page;
 use ambulo_results::Folder;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 
 /// Body weight [N].
@@ -206,4 +207,58 @@ fn a_run_with_muscles_is_compared_with_one_without() {
     };
     assert!(!groups(0).contains(&"muscles".to_owned()) && groups(1).contains(&"muscles".to_owned()));
     assert!(groups(1).contains(&"contact".to_owned()));
+}
+
+/// A soleus from shank to foot with a point that comes and goes and one that moves by 1 mm per radian from 2 mm.
+const SOLEUS: &str = "<ForceSet><objects><Thelen2003Muscle name=\"soleus_r\">\
+    <max_isometric_force>3000</max_isometric_force><optimal_fiber_length>0.05</optimal_fiber_length>\
+    <tendon_slack_length>0.25</tendon_slack_length><GeometryPath><PathPointSet><objects>\
+    <PathPoint name=\"a\"><socket_parent_frame>/bodyset/tibia_r</socket_parent_frame>\
+    <location>-0.01 -0.15 0</location></PathPoint>\
+    <ConditionalPathPoint name=\"b\"><socket_parent_frame>/bodyset/tibia_r</socket_parent_frame>\
+    <location>-0.02 -0.3 0</location><socket_coordinate>/jointset/knee_r/knee_angle_r</socket_coordinate>\
+    <range>-9 -8</range></ConditionalPathPoint>\
+    <MovingPathPoint name=\"c\"><socket_parent_frame>/bodyset/calcn_r</socket_parent_frame>\
+    <socket_x_coordinate>/jointset/knee_r/knee_angle_r</socket_x_coordinate>\
+    <x_location><LinearFunction><coefficients>0.001 0.002</coefficients></LinearFunction></x_location>\
+    <y_location><Constant><value>-0.03</value></Constant></y_location>\
+    <z_location><Constant><value>0.004</value></Constant></z_location></MovingPathPoint>\
+    </objects></PathPointSet></GeometryPath></Thelen2003Muscle></objects></ForceSet></Model>";
+
+#[test]
+fn the_figure_draws_muscles_through_the_points_of_their_bodies() {
+    let mut files = with_muscles();
+    assert!(Shown::of(&files).misses("No muscles in the figure: subject.osim"));
+    let body = String::from_utf8(files["subject.osim"].clone()).unwrap().replace("</Model>", SOLEUS);
+    files.insert("subject.osim".to_owned(), body.into_bytes());
+    let shown = Shown::of(&files);
+    let view = &shown.session()["view"];
+    let [muscle] = &view["muscles"].as_array().unwrap()[..] else { panic!("{}", view["muscles"]) };
+    assert_eq!((muscle["name"].as_str(), muscle["side"].as_str()), (Some("soleus_r"), Some("r")));
+    assert!(shown.series(&muscle["activation"]).iter().all(|activation| (activation - 1.0).abs() < STEP));
+    let name = |point: &Value| view["bodies"][point["body"].as_u64().unwrap() as usize]["name"].clone();
+    let points = muscle["points"].as_array().unwrap();
+    assert_eq!(points.iter().map(name).collect::<Vec<_>>(), ["tibia_r", "tibia_r", "calcn_r"]);
+    assert_eq!(points[1]["place"], json!([-0.02, -0.3, 0.0]), "a point that comes and goes is always drawn");
+    let moving = points[2]["place"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    assert!(moving.iter().zip([0.002, -0.03, 0.004]).all(|(x, expected)| (x - expected).abs() < 1e-9), "{moving:?}");
+    assert!(!shown.misses("No muscles in the figure"));
+}
+
+#[test]
+fn usual_times_of_activity_are_those_of_the_table() {
+    let mut files = with_muscles();
+    let muscles = table(&files, &[("tib_ant_r_activation", &slow), ("psoas_r_activation", &slow)]);
+    files.insert("muscles.sto".to_owned(), muscles);
+    let shown = Shown::of(&files);
+    let on = normal_timing(AnatomicalMuscle::TibialisAnterior).unwrap().is_on(0.5);
+    let drawn = &shown.panel("tibialis_anterior_activation")["activity"]["usual"];
+    let times: Vec<[f64; 2]> = serde_json::from_value(drawn.clone()).unwrap_or_default();
+    let is_drawn = |percent: f64| times.iter().any(|[from, to]| (*from..*to).contains(&percent));
+    if on.len() == 100 {
+        assert!(on.iter().enumerate().all(|(k, on)| is_drawn(k as f64 + 0.5) == *on), "{times:?}");
+    } else {
+        assert!(times.is_empty(), "a table of other steps is not drawn");
+    }
+    assert!(shown.panel("hip_flexors_activation")["activity"].is_null(), "nobody measured the psoas");
 }

@@ -1,21 +1,19 @@
 //! Loads of hips, knees and ankles, with the forces of the muscles, in body weights.
 //!
-//! resultant   = |f|,    compression = f . d
+//! resultant   = |f|,    compression = -f . u
 //!
 //! | code | symbol | unit | frame |
 //! |---|---|---|---|
-//! | `force` | f | N | force of the parent on the child, axes of the child body |
-//! | `along` | d | 1 | along the bone away from the pelvis, axes of the child body |
-//!
-//! The bone is the thigh at the hip, and the shank at knee and ankle; at the ankle its direction in the axes of the
-//! foot is that of the model's neutral posture.
+//! | `force` | f | N | force on the distal segment, axes of the joint's child body |
+//! | `up` | u | 1 | long axis of the distal segment, up: of thigh (hip), shank (knee), and shank in the neutral \
+//! posture (ankle); axes of the child body |
 
 use super::side_curves::{Head, SideCurve, SideCurves, panel};
 use crate::page::block::Block;
 use crate::page::contract::{Group, Origin};
 use crate::page::session::results::Results;
-use ambulo::model::anatomy::Leg;
-use ambulo::model::{BodyId, BySide, Model, Side};
+use ambulo::model::anatomy::LegJoint;
+use ambulo::model::{BySide, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
 use ambulo_results::CONTACT_REACTIONS;
@@ -30,25 +28,15 @@ pub(super) struct Load {
     pub(super) curves: SideCurves,
 }
 
-/// A joint that carries a load.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum LoadedJoint {
-    Hip,
-    Knee,
-    Ankle,
-}
-
-use LoadedJoint::{Ankle, Hip, Knee};
-
-const RESULTANTS: [(LoadedJoint, &str, &str); 3] = [
-    (Hip, "hip_contact", "Hip contact force"),
-    (Knee, "knee_contact", "Knee contact force"),
-    (Ankle, "ankle_contact", "Ankle contact force"),
+const RESULTANTS: [(LegJoint, &str, &str); 3] = [
+    (LegJoint::Hip, "hip_contact", "Hip contact force"),
+    (LegJoint::Knee, "knee_contact", "Knee contact force"),
+    (LegJoint::Ankle, "ankle_contact", "Ankle contact force"),
 ];
-const COMPRESSIONS: [(LoadedJoint, &str, &str); 3] = [
-    (Hip, "hip_compression", "Hip compression"),
-    (Knee, "knee_compression", "Knee compression"),
-    (Ankle, "ankle_compression", "Ankle compression"),
+const COMPRESSIONS: [(LegJoint, &str, &str); 3] = [
+    (LegJoint::Hip, "hip_compression", "Hip compression"),
+    (LegJoint::Knee, "knee_compression", "Knee compression"),
+    (LegJoint::Ankle, "ankle_compression", "Ankle compression"),
 ];
 const CONDYLES: [(&str, &str, &str); 2] =
     [("medial", "knee_medial", "Knee compression, medial"), ("lateral", "knee_lateral", "Knee compression, lateral")];
@@ -79,13 +67,13 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
 pub(super) fn loads(results: &Results) -> Vec<Load> {
     let Some((table, (_, model))) = results.contact.as_ref().zip(results.body.as_ref()) else { return Vec::new() };
     let weight_n = results.weight_n;
-    let resultant = |(joint, id, title): (LoadedJoint, &'static str, &'static str)| Load {
+    let resultant = |(joint, id, title): (LegJoint, &'static str, &'static str)| Load {
         id,
         title,
         directions: ["", ""],
         curves: BySide::from_fn(|side| resultant(table, model, joint, side, weight_n)),
     };
-    let compression = |(joint, id, title): (LoadedJoint, &'static str, &'static str)| Load {
+    let compression = |(joint, id, title): (LegJoint, &'static str, &'static str)| Load {
         id,
         title,
         directions: ["compression", "distraction"],
@@ -101,34 +89,37 @@ pub(super) fn loads(results: &Results) -> Vec<Load> {
     all.chain(CONDYLES.into_iter().map(condyle)).filter(|load| load.curves.values().any(Option::is_some)).collect()
 }
 
-/// The child body of a joint.
-fn child(leg: &Leg, joint: LoadedJoint) -> BodyId {
-    match joint {
-        Hip => leg.hip,
-        Knee => leg.knee,
-        Ankle => leg.ankle,
+/// Forces on the distal segment of a joint over time.
+struct JointForces {
+    /// In the axes of the joint's child body [N].
+    forces: Vec<Vec3>,
+    /// Long axis of the distal segment in these axes, up.
+    up: Vec3,
+}
+
+impl JointForces {
+    fn read(table: &Table, model: &Model, joint: LegJoint, side: Side) -> Option<JointForces> {
+        let poses = &model.anatomy().neutral()?.poses;
+        let axes = model.leg_joint(joint, side, |body| poses[body.index()].rotation)?;
+        let body = &model.bodies()[axes.body.index()];
+        let stem = format!("{}_on_{1}_in_{1}_f", body.joint.name, body.name);
+        let [x, y, z] = ["x", "y", "z"].map(|axis| table.column(&format!("{stem}{axis}")));
+        let components = x?.iter().zip(y?).zip(z?);
+        Some(JointForces {
+            forces: components.map(|((x, y), z)| Vec3::new(*x, *y, *z) * axes.on_distal).collect(),
+            up: poses[axes.body.index()].rotation.transpose() * axes.axes[1],
+        })
     }
 }
 
-/// Force of the parent on the child in the axes of the child [N], one per instant.
-fn forces(table: &Table, model: &Model, joint: LoadedJoint, side: Side) -> Option<Vec<Vec3>> {
-    let leg = model.anatomy().legs()[side].as_ref()?;
-    let body = &model.bodies()[child(leg, joint).index()];
-    let stem = format!("{}_on_{1}_in_{1}_f", body.joint.name, body.name);
-    let [x, y, z] = ["x", "y", "z"].map(|axis| table.column(&format!("{stem}{axis}")));
-    let components = x?.iter().zip(y?).zip(z?);
-    Some(components.map(|((x, y), z)| Vec3::new(*x, *y, *z)).collect())
+fn resultant(table: &Table, model: &Model, joint: LegJoint, side: Side, weight_n: f64) -> Option<SideCurve> {
+    let JointForces { forces, .. } = JointForces::read(table, model, joint, side)?;
+    Some(SideCurve { values: forces.iter().map(|force| force.norm() / weight_n).collect(), origin: None })
 }
 
-fn resultant(table: &Table, model: &Model, joint: LoadedJoint, side: Side, weight_n: f64) -> Option<SideCurve> {
-    let values = forces(table, model, joint, side)?.iter().map(|force| force.norm() / weight_n).collect();
-    Some(SideCurve { values, origin: None })
-}
-
-fn compression(table: &Table, model: &Model, joint: LoadedJoint, side: Side, weight_n: f64) -> Option<SideCurve> {
-    let along = along(model, joint, side)?;
-    let values = forces(table, model, joint, side)?.iter().map(|force| force.dot(&along) / weight_n).collect();
-    Some(SideCurve { values, origin: None })
+fn compression(table: &Table, model: &Model, joint: LegJoint, side: Side, weight_n: f64) -> Option<SideCurve> {
+    let JointForces { forces, up } = JointForces::read(table, model, joint, side)?;
+    Some(SideCurve { values: forces.iter().map(|force| -force.dot(&up) / weight_n).collect(), origin: None })
 }
 
 fn condyle(table: &Table, word: &str, side: Side, weight_n: f64) -> Option<SideCurve> {
@@ -136,17 +127,4 @@ fn condyle(table: &Table, word: &str, side: Side, weight_n: f64) -> Option<SideC
     let values = table.column(&column)?.iter().map(|force| force / weight_n).collect();
     let origin = Origin { file: CONTACT_REACTIONS.to_owned(), column, factor: 1.0 / weight_n };
     Some(SideCurve { values, origin: Some(origin) })
-}
-
-/// Unit vector along the bone away from the pelvis, in the axes of the joint's child body.
-fn along(model: &Model, joint: LoadedJoint, side: Side) -> Option<Vec3> {
-    let leg = model.anatomy().legs()[side].as_ref()?;
-    let poses = &model.anatomy().neutral()?.poses;
-    let center = |body: BodyId| {
-        let in_body = model.bodies()[body.index()].joint.child_from_joint.translation;
-        poses[body.index()].place(in_body)
-    };
-    let [upper, lower] = if joint == Hip { [leg.hip, leg.knee] } else { [leg.knee, leg.ankle] };
-    let bone = (center(lower) - center(upper)).try_normalize(f64::MIN_POSITIVE)?;
-    Some(poses[child(leg, joint).index()].rotation.transpose() * bone)
 }

@@ -1,10 +1,14 @@
-//! Groups of muscles with a panel, and the names that their parts have in models and recordings.
-//!
-//! Names of models: Gait2392 (`vas_med_r`, `glut_max1_r`), Rajagopal 2016 (`vasmed_r`, `glmax1_r`), Gait10dof18musc
-//! (`vasti_r`, `glut_max_r`). Names of electromyograms: the anatomical ones (`vastus_medialis_r`). Only letters count:
-//! several lines of action of one muscle differ by a number.
+//! Groups of muscles with a panel.
 
-use ambulo::model::Side;
+use ambulo::model::{BySide, Side};
+use ambulo::muscles::emg::AnatomicalMuscle::{self, *};
+use ambulo::muscles::emg::{bursts, normal_timing};
+use ambulo_formats::table::Table;
+
+/// A muscle is usually active where it is on in at least this share of persons.
+const USUAL_SHARE: f64 = 0.5;
+/// Intervals of a cycle in the table of normal timing.
+const PERCENTS: usize = 100;
 
 /// Muscles that share a panel.
 pub(super) struct MuscleGroup {
@@ -12,90 +16,59 @@ pub(super) struct MuscleGroup {
     pub(super) id: &'static str,
     /// Heading.
     pub(super) title: &'static str,
-    /// Its muscles.
-    pub(super) parts: &'static [Part],
+    /// Its muscles, and the names of several of them together.
+    muscles: &'static [AnatomicalMuscle],
 }
 
-/// An anatomical muscle, or muscles that a model joins into one.
-pub(super) struct Part {
-    /// Anatomical name.
-    pub(super) words: &'static str,
-    /// Names in models, of letters only; the anatomical name is known without being listed.
-    names: &'static [&'static str],
-}
-
-const fn part(words: &'static str, names: &'static [&'static str]) -> Part {
-    Part { words, names }
-}
+/// A column of a muscle: which it is, its name, and one value per instant.
+pub(super) type MuscleColumn<'a> = (AnatomicalMuscle, &'a str, &'a [f64]);
 
 /// The groups, from proximal to distal.
 pub(super) const GROUPS: [MuscleGroup; 9] = [
-    MuscleGroup {
-        id: "hip_flexors",
-        title: "Hip flexors",
-        parts: &[part("iliacus", &[]), part("psoas", &["psoasmajor"]), part("iliopsoas", &[])],
-    },
-    MuscleGroup {
-        id: "gluteus_maximus",
-        title: "Gluteus maximus",
-        parts: &[part("gluteus maximus", &["glutmax", "glmax"])],
-    },
-    MuscleGroup {
-        id: "gluteus_medius",
-        title: "Gluteus medius",
-        parts: &[part("gluteus medius", &["glutmed", "glmed"])],
-    },
+    MuscleGroup { id: "hip_flexors", title: "Hip flexors", muscles: &[Iliacus, Psoas, Iliopsoas] },
+    MuscleGroup { id: "gluteus_maximus", title: "Gluteus maximus", muscles: &[GluteusMaximus] },
+    MuscleGroup { id: "gluteus_medius", title: "Gluteus medius", muscles: &[GluteusMedius] },
     MuscleGroup {
         id: "hamstrings",
         title: "Hamstrings",
-        parts: &[
-            part("semitendinosus", &["semiten"]),
-            part("semimembranosus", &["semimem"]),
-            part("biceps femoris", &["bifemlh", "bflh", "bicepsfemorislonghead"]),
-            part("hamstrings", &["medialhamstrings", "lateralhamstrings"]),
-        ],
+        muscles: &[Semitendinosus, Semimembranosus, BicepsFemorisLongHead, BicepsFemoris, Hamstrings],
     },
-    MuscleGroup {
-        id: "rectus_femoris",
-        title: "Rectus femoris",
-        parts: &[part("rectus femoris", &["rectfem", "recfem"])],
-    },
-    MuscleGroup {
-        id: "vasti",
-        title: "Vasti",
-        parts: &[
-            part("vastus medialis", &["vasmed"]),
-            part("vastus intermedius", &["vasint"]),
-            part("vastus lateralis", &["vaslat"]),
-            part("vasti", &[]),
-        ],
-    },
+    MuscleGroup { id: "rectus_femoris", title: "Rectus femoris", muscles: &[RectusFemoris] },
+    MuscleGroup { id: "vasti", title: "Vasti", muscles: &[VastusMedialis, VastusIntermedius, VastusLateralis, Vasti] },
     MuscleGroup {
         id: "gastrocnemius",
         title: "Gastrocnemius",
-        parts: &[
-            part("gastrocnemius medialis", &["medgas", "gasmed", "medialgastrocnemius"]),
-            part("gastrocnemius lateralis", &["latgas", "gaslat", "lateralgastrocnemius"]),
-            part("gastrocnemius", &["gastroc"]),
-        ],
+        muscles: &[GastrocnemiusMedialis, GastrocnemiusLateralis, Gastrocnemius],
     },
-    MuscleGroup { id: "soleus", title: "Soleus", parts: &[part("soleus", &[])] },
-    MuscleGroup {
-        id: "tibialis_anterior",
-        title: "Tibialis anterior",
-        parts: &[part("tibialis anterior", &["tibant"])],
-    },
+    MuscleGroup { id: "soleus", title: "Soleus", muscles: &[Soleus] },
+    MuscleGroup { id: "tibialis_anterior", title: "Tibialis anterior", muscles: &[TibialisAnterior] },
 ];
 
-/// The side and the part of a group that a muscle of a model or of a recording is; `None` for other muscles.
-pub(super) fn known(group: &'static MuscleGroup, muscle: &str) -> Option<(Side, &'static Part)> {
-    let (side, stem) = Side::split_name(muscle)?;
-    let name = letters(&stem);
-    let part = group.parts.iter().find(|part| letters(part.words) == name || part.names.contains(&name.as_str()))?;
-    Some((side, part))
-}
+impl MuscleGroup {
+    /// The side of a muscle of the group, and which muscle it is, by its name in a model or a recording.
+    pub(super) fn known(&self, name: &str) -> Option<(Side, AnatomicalMuscle)> {
+        let (muscle, side) = AnatomicalMuscle::of_name(name)?;
+        self.muscles.contains(&muscle).then_some((side?, muscle))
+    }
 
-/// The small letters of a name.
-fn letters(name: &str) -> String {
-    name.chars().filter(char::is_ascii_alphabetic).map(|letter| letter.to_ascii_lowercase()).collect()
+    /// The columns with this ending, of both legs.
+    pub(super) fn columns<'a>(&self, table: &'a Table, ending: &str) -> BySide<Vec<MuscleColumn<'a>>> {
+        let mut found: BySide<Vec<MuscleColumn<'a>>> = BySide { right: Vec::new(), left: Vec::new() };
+        for (name, values) in table.columns() {
+            if let Some((side, muscle)) = name.strip_suffix(ending).and_then(|muscle| self.known(muscle)) {
+                found[side].push((muscle, name, values));
+            }
+        }
+        found
+    }
+
+    /// The first muscle of the group whose usual times of activity are known, and these times [% of the cycle].
+    pub(super) fn usual(&self) -> Option<(AnatomicalMuscle, Vec<[f64; 2]>)> {
+        let timing = self.muscles.iter().find_map(|muscle| normal_timing(*muscle))?;
+        let on = timing.is_on(USUAL_SHARE);
+        // A burst across the foot strike is drawn at both ends of the cycle.
+        let parts = |[from, to]: [f64; 2]| if from < to { vec![[from, to]] } else { vec![[0.0, to], [from, 100.0]] };
+        let times = bursts(&on).into_iter().flat_map(parts).filter(|[from, to]| from < to).collect();
+        (on.len() == PERCENTS).then_some((timing.muscle, times))
+    }
 }
