@@ -6,6 +6,7 @@ use crate::kinematics::marker_fit::MarkerFit;
 use crate::model::marker_set::{MarkerSet, NamedMarker, RecognisedMarkers};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
+use crate::numerics::counted;
 use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
 
 /// Of the markers of a motion, a body should follow at least this share [1].
@@ -71,9 +72,10 @@ fn report_found(subject: &Subject, found: &[(Marker, f64)], findings: &mut Findi
         let body = marker.body.map_or("ground", |body| &bodies[body.index()].name);
         format!("`{}` on `{body}`", marker.name)
     };
-    let markers = if found.len() == 1 { "1 marker was".to_owned() } else { format!("{} markers were", found.len()) };
+    let were = if found.len() == 1 { "was" } else { "were" };
+    let markers = counted(found.len(), "marker");
     let listed = listed(found.iter().map(shown));
-    let message = format!("{markers} given to the segments by how they move: {listed}");
+    let message = format!("{markers} {were} given to the segments by how they move: {listed}");
     findings.report(Code::MarkersByMotion, message);
 }
 
@@ -130,8 +132,7 @@ fn hardly_shown(subject: &Subject, followed: &[&str]) -> impl Iterator<Item = St
         let own: Vec<&Marker> = markers_of(subject, body).filter(|m| followed.contains(&m.name.as_str())).collect();
         let weight = |marker: &Marker| subject.weights.get(&marker.name).copied().unwrap_or(AT_JOINT);
         let is_enough = own.len() >= OF_A_POSE || own.iter().any(|marker| weight(marker) >= AT_JOINT);
-        let count = if own.len() == 1 { "1 marker".to_owned() } else { format!("{} markers", own.len()) };
-        (!is_enough).then(|| format!("the {side} {name} ({count})"))
+        (!is_enough).then(|| format!("the {side} {name} ({})", counted(own.len(), "marker")))
     })
 }
 
