@@ -191,7 +191,7 @@ pub(super) fn pair(trial: &mut Trial, lefts: &[&str]) -> Option<()> {
     Some(())
 }
 
-fn bare(name: &str) -> &str {
+pub(super) fn bare(name: &str) -> &str {
     name.rsplit_once(':').map_or(name, |(_, label)| label)
 }
 
