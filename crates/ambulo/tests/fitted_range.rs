@@ -55,7 +55,7 @@ fn a_part_of_a_recording_has_the_results_of_the_whole_and_is_fitted_alone() {
     let (mut angle, mut moment) = (0.0_f64, 0.0_f64);
     for id in whole.body.coordinate_ids().skip(6) {
         let [of_whole, of_part] = [&whole, &part].map(|outcome| outcome.analysis.trajectory.values(id));
-        let [before, after] = [&whole, &part].map(|outcome| &outcome.complete().forces.generalized[id.index()]);
+        let [before, after] = [&whole, &part].map(|outcome| &outcome.analysis.forces.generalized[id.index()]);
         for frame in 0..short.frames {
             angle = angle.max((of_whole[first + frame] - of_part[frame]).abs());
             moment = moment.max((before[first + frame] - after[frame]).abs() / whole.analysis.mass.kg);
