@@ -44,9 +44,8 @@ pub const TRACK_STAGES: [Continuation; 6] = [
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Largest root mean square of the residual forces of a solution [body weights, body weights × leg length].
 const LARGEST_RESIDUAL: f64 = 0.003;
-/// Most repeats of the last stages: recordings whose postures are far from the ranges of the joints converge slowly.
-const MOST_REPEATS: usize = 4;
-/// Instants per knot interval.: usize = 2;
+/// Instants per knot interval.
+const PER_KNOT: usize = 2;
 /// Longest recording [s]: memory grows by some 20 MB per second.
 const LONGEST_S: f64 = 120.0;
 /// Shortest recording, in knot intervals.
@@ -305,26 +304,17 @@ impl<'a> TrackProblem<'a> {
         Ok(TrackProblem { problem, guess, recorded, kept, floor_m, belt })
     }
 
-    /// Solves the problem; repeats the last stages if forces at the root remain, [`MOST_REPEATS`] times if they are too
-    /// large for a result.
+    /// Solves the problem; repeats the last stage if forces at the root remain.
     ///
     /// # Errors
     /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that
     /// remain.
     pub fn solve(&self, stages: &[Continuation]) -> Result<TrackedMotion, TrackError> {
         let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
-        let on = Continuation::on(stages);
-        let mut solution = self.problem.balanced(solution, &[&on], &self.kept)?;
+        let solution = self.problem.balanced(solution, &[&Continuation::on(stages)], &self.kept)?;
         let grid = self.recorded.grid();
         let times: Vec<f64> = (0..grid.frames).map(|k| grid.step_s * k as f64).collect();
-        let mut samples = solution.samples(&times)?;
-        for _ in 1..MOST_REPEATS {
-            if self.residual(&samples).0 <= LARGEST_RESIDUAL {
-                break;
-            }
-            solution = self.problem.balanced(solution, &[&on], &self.kept)?;
-            samples = solution.samples(&times)?;
-        }
+        let samples = solution.samples(&times)?;
         let trajectory = self.trajectory(&samples)?;
         let feet = [(Side::Right, 0), (Side::Left, PER_FOOT)].map(|(side, first)| self.foot(&samples, side, first));
         let residual = self.residual(&samples);
