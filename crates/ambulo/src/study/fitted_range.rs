@@ -10,8 +10,9 @@
 //! Pinned by: tests/fitted_range.rs
 
 use super::settings::{GroundSettings, Settings};
+use crate::analysis::LaboratoryRecording;
 use crate::ground::CENTER_OF_PRESSURE_LOAD_N;
-use crate::motion::{PlateRecording, Smoother, Window};
+use crate::motion::{Smoother, Window};
 
 /// Time before and after the range that is fitted as well [periods of the cutoff].
 const PERIODS: f64 = 6.0;
@@ -19,14 +20,21 @@ const PERIODS: f64 = 6.0;
 const LEAST_S: f64 = 1.0;
 
 /// The time to fit; all of the recording for a spline, whose smoothness depends on every frame, and for predicted
-/// forces.
-pub(super) fn fitted_range(settings: &Settings, plates: &[PlateRecording]) -> Window {
+/// forces. A range that is not inside of the recording is refused later, with the times of all of it.
+pub(super) fn fitted_range(settings: &Settings, recording: &LaboratoryRecording) -> Window {
     let is_predicted = match settings.ground {
-        GroundSettings::MeasuredOrPredicted => !plates.iter().any(|plate| plate.peak_n() > CENTER_OF_PRESSURE_LOAD_N),
+        GroundSettings::MeasuredOrPredicted => {
+            !recording.plates.iter().any(|plate| plate.peak_n() > CENTER_OF_PRESSURE_LOAD_N)
+        }
         GroundSettings::Predicted | GroundSettings::Tracked => true,
         GroundSettings::NoContact => false,
     };
-    if is_predicted {
+    let times = &recording.markers.times;
+    let is_recorded = |time_s: Option<f64>| {
+        let ends = times.first().zip(times.last());
+        time_s.is_none_or(|time_s| ends.is_some_and(|(first, last)| (*first..=*last).contains(&time_s)))
+    };
+    if is_predicted || !is_recorded(settings.window.from_s) || !is_recorded(settings.window.to_s) {
         return Window::default();
     }
     let around_s = match settings.smoother {

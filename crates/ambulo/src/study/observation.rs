@@ -497,7 +497,7 @@ impl Statements {
             bodies: standing.map(|standing| &standing.bodies),
             body,
             plate_feet: &plate_feet,
-            window: fitted_range(settings, &trial.plates),
+            window: fitted_range(settings, &trial),
         };
         let shown;
         if let (Some(movement), BodySource::BuiltIn { person, set }) = (&self.movement, &trial.body) {
