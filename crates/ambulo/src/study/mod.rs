@@ -19,6 +19,7 @@
 mod b3d_source;
 mod error;
 mod events;
+mod fitted_range;
 pub(crate) mod force_columns;
 mod force_directions;
 mod force_filter;
