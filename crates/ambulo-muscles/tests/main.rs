@@ -7,8 +7,10 @@
 mod muscle_models;
 mod people;
 mod shared_data;
+mod walks;
 
 mod built_in;
+mod contact_loads;
 mod curves;
 mod import;
 mod loads;
@@ -16,6 +18,7 @@ mod optimization;
 mod paths;
 mod round_trip;
 mod scaling;
+mod solver;
 mod strength;
 mod wrap_models;
 mod wrap_opensim;
