@@ -37,7 +37,7 @@
 //! Not handled: knees that slide or roll; trunk and arm muscles; volumes of children (the regression is on adults). A
 //! knee that extends beyond the range of its coordinate has too large arms of the quadriceps, because the patella stands
 //! still there.
-//! Pinned by: tests/built_in
+//! Pinned by: tests/built_in/arms.rs, tests/built_in/contact.rs, tests/built_in/persons.rs, tests/built_in/write_table.rs
 
 mod segments;
 mod table;
