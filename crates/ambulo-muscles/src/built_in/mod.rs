@@ -193,10 +193,12 @@ fn neutral_length(row: &MuscleRow, leg: &Leg, is_own: bool) -> f64 {
 
 /// A motor at every free coordinate outside the root and the legs.
 fn motors(model: &Model) -> Vec<CoordinateActuator> {
-    let in_leg = |body: BodyId| model.anatomy().legs().values().flatten().any(|leg| {
-        let mut upwards = std::iter::successors(Some(leg.foot), |own| model.bodies()[own.index()].joint.parent);
-        upwards.any(|own| own == body)
-    });
+    let in_leg = |body: BodyId| {
+        model.anatomy().legs().values().flatten().any(|leg| {
+            let mut upwards = std::iter::successors(Some(leg.foot), |own| model.bodies()[own.index()].joint.parent);
+            upwards.any(|own| own == body)
+        })
+    };
     let bodies = model.body_ids().filter(|body| !in_leg(*body));
     let joints = bodies.map(|body| &model.bodies()[body.index()].joint).filter(|joint| joint.parent.is_some());
     let free = joints.flat_map(|joint| joint.coordinates()).filter_map(|coordinate| {

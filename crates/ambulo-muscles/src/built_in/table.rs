@@ -83,9 +83,16 @@ pub(super) struct PointRow {
 pub(super) enum PlaceRow {
     Fixed(Vec3),
     /// Part of the path while the angle of a joint is in a range [rad].
-    Conditional { place: Vec3, joint: Joint, range: [f64; 2] },
+    Conditional {
+        place: Vec3,
+        joint: Joint,
+        range: [f64; 2],
+    },
     /// x, y and z against the angle of a joint [rad].
-    Moving { joint: Joint, spline: Box<[SimmSpline; 3]> },
+    Moving {
+        joint: Joint,
+        spline: Box<[SimmSpline; 3]>,
+    },
 }
 
 /// The muscles of a right leg.

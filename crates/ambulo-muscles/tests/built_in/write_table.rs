@@ -78,7 +78,18 @@ fn read(data: &Path) -> Source {
     let (thigh, shank) = (axes(-hinge[0]), axes(hinge[1] - ankle));
     let (thigh_m, shank_m) = (hinge[0].norm(), (hinge[1] - ankle).norm());
     let foot = -place("calcn_r");
-    Source { hip: place("femur_r"), ball: place("toes_r") - foot, foot, hinge, thigh, shank, thigh_m, shank_m, model, document }
+    Source {
+        hip: place("femur_r"),
+        ball: place("toes_r") - foot,
+        foot,
+        hinge,
+        thigh,
+        shank,
+        thigh_m,
+        shank_m,
+        model,
+        document,
+    }
 }
 
 /// Place of the tibia in the femur at an extension of the knee [m].
