@@ -142,7 +142,12 @@ fn a_muscle_without_effect_is_left_out_with_a_reason() {
     );
     let wrapped = muscle("bad", &both, "<!--wraps-->");
     let torus = "<WrapTorus name=\"knob\"/>";
-    assert_left_out(&wrapped, torus, Code::MusclesUnsupported, "(path over the WrapTorus `knob`, which is not supported): bad");
+    assert_left_out(
+        &wrapped,
+        torus,
+        Code::MusclesUnsupported,
+        "(path over the WrapTorus `knob`, which is not supported): bad",
+    );
     // Without its fault the muscle is kept.
     let (set, findings) = import(&leg(&muscle("bad", &both, ""), ""));
     assert_eq!((set.unwrap().muscles.len(), findings.as_slice().len()), (1, 0));
