@@ -32,6 +32,7 @@ mod motion_units;
 mod numerics_band_cholesky;
 mod numerics_cardinal_spline;
 mod numerics_cma;
+mod numerics_counted;
 mod numerics_dense;
 mod numerics_elementary;
 mod numerics_harmonics;

@@ -28,15 +28,18 @@ fn dump_models() {
                     let mut which = "";
                     for column in table.header.iter().filter(|column| column.starts_with("r:")) {
                         let id = model.coordinate(&column[2..]).unwrap();
-                        let difference = (paths.arm(i, id) - table.text(row, column).parse::<f64>().unwrap_or(0.0)).abs();
+                        let difference =
+                            (paths.arm(i, id) - table.text(row, column).parse::<f64>().unwrap_or(0.0)).abs();
                         if difference > arm {
                             (arm, which) = (difference, column);
                         }
                     }
                     println!(
                         "D,{name},{rule:?},{p},{kind},{},{},{:e},{active},{n},{arc:.6},{ours:.6},{arm:e},{which},{:?}",
-                        muscle.name, muscle.path.wraps.len(),
-                        table.number(row, "length_m") - paths.lengths()[i], paths.contacts(i)
+                        muscle.name,
+                        muscle.path.wraps.len(),
+                        table.number(row, "length_m") - paths.lengths()[i],
+                        paths.contacts(i)
                     );
                 }
             }
