@@ -264,7 +264,7 @@ impl PathWorkspace {
         let mut anchors = points.iter();
         let mut before = Vec3::zeros();
         for (i, node) in nodes.iter().enumerate() {
-            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| direction(node, next));
+            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| direction(node, next, self.rule));
             let pull = after - before;
             before = after;
             let slot = match node.surface {
@@ -276,7 +276,7 @@ impl PathWorkspace {
                 }
             };
             wrenches[slot].force += pull;
-            wrenches[slot].moment += (node.place - self.about).cross(&pull);
+            wrenches[slot].moment += (node.acts_at - self.about).cross(&pull);
         }
         let mut speed = 0.0;
         for (slot, wrench) in plan.slots.iter().zip(&*wrenches) {
@@ -325,7 +325,11 @@ impl PathWorkspace {
 }
 
 /// Unit vector from a node to the next; zero along an arc, and between nodes in one place.
-fn direction(node: &PathNode, next: &PathNode) -> Vec3 {
+fn direction(node: &PathNode, next: &PathNode, rule: WrapRule) -> Vec3 {
+    // Such a part has no effect unless its pulls are not in balance, as in OpenSim, which leaves it out.
+    if rule == WrapRule::OpenSim && node.body == next.body && node.surface.or(next.surface).is_some() {
+        return Vec3::zeros();
+    }
     match node.arc {
         Some(_) => Vec3::zeros(),
         None => (next.place - node.place).try_normalize(f64::MIN_POSITIVE).unwrap_or_default(),
