@@ -16,8 +16,8 @@ fn chain() -> Model {
         <TransformAxis><coordinates>custom_1</coordinates><axis>0 1 0</axis><LinearFunction><coefficients>1 0\
         </coefficients></LinearFunction></TransformAxis><TransformAxis><coordinates></coordinates><axis>1 0 0</axis>\
         <Constant><value>0.2</value></Constant></TransformAxis><TransformAxis><coordinates>custom_0</coordinates>\
-        <axis>1 0 0</axis><PolynomialFunction><coefficients>0.2 0.1 0</coefficients></PolynomialFunction></TransformAxis>\
-        <TransformAxis><coordinates>custom_1</coordinates><axis>0 1 0</axis><LinearFunction><coefficients>0.1 0\
+        <axis>1 0 0</axis><PolynomialFunction><coefficients>0.2 0.1 0</coefficients></PolynomialFunction>\
+        </TransformAxis><TransformAxis><coordinates>custom_1</coordinates><axis>0 1 0</axis><LinearFunction><coefficients>0.1 0\
         </coefficients></LinearFunction></TransformAxis><TransformAxis><coordinates></coordinates><axis>0 0 1</axis>\
         <Constant><value>0</value></Constant></TransformAxis></SpatialTransform>";
     let joints = [
@@ -39,15 +39,15 @@ fn chain() -> Model {
             "<Body name=\"{name}\"><mass>1</mass><mass_center>0.1 0.2 0.3</mass_center><inertia_xx>1</inertia_xx>\
              <inertia_yy>1</inertia_yy><inertia_zz>1</inertia_zz><Joint><{kind} name=\"{name}\"><parent_body>{parent}\
              </parent_body><location_in_parent>0.3 -0.2 0.1</location_in_parent><orientation_in_parent>0.2 0.3 -0.4\
-             </orientation_in_parent><location>0.1 0 0.2</location><orientation>0.5 0.1 0.3</orientation><CoordinateSet>\
-             <objects>{}</objects></CoordinateSet>{more}</{kind}></Joint></Body>",
+             </orientation_in_parent><location>0.1 0 0.2</location><orientation>0.5 0.1 0.3</orientation>\
+             <CoordinateSet><objects>{}</objects></CoordinateSet>{more}</{kind}></Joint></Body>",
             coordinates(name, count)
         );
         parent = name;
     }
     let text = format!(
-        "<OpenSimDocument Version=\"30000\"><Model name=\"chain\"><BodySet><objects>{bodies}</objects></BodySet></Model>\
-         </OpenSimDocument>"
+        "<OpenSimDocument Version=\"30000\"><Model name=\"chain\"><BodySet><objects>{bodies}</objects>\
+         </BodySet></Model></OpenSimDocument>"
     );
     Model::from_osim(text.as_bytes(), &mut Findings::default()).unwrap()
 }

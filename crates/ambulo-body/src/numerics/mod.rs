@@ -35,7 +35,6 @@ pub use cma::Cma;
 pub use counted::{counted, degrees};
 #[doc(hidden)]
 pub use dense::DenseLu;
-pub(crate) use dense::DenseLu;
 pub use harmonics::Harmonics;
 #[doc(hidden)]
 pub use least_squares::Residuals;
