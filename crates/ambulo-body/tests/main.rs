@@ -20,6 +20,7 @@ mod kinematics_branch_matrix;
 mod kinematics_gaps;
 mod kinematics_joint_angles;
 mod kinematics_legs;
+mod kinematics_posture_sweep;
 mod kinematics_rows;
 mod model_landmark;
 mod model_name_index;
