@@ -25,6 +25,7 @@ mod markers;
 mod motions_mvnx;
 mod numbers;
 mod orientation_tables;
+mod osim_muscles;
 mod osim_write;
 mod other_contents;
 #[cfg(feature = "parquet")]

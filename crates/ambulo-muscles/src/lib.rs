@@ -2,8 +2,9 @@
 //!
 //! | module | duty |
 //! |---|---|
+//! | [`built_in`] | the muscles of the built-in body of a person |
 //! | [`set`] | muscles, wraps and actuators of a model |
-//! | `import`, [`MuscleError`] | muscles from OpenSim documents |
+//! | `import`, `export`, `scaled` | muscles from OpenSim documents and back; scaled with the body |
 //! | [`path`] | lengths, lengthening speeds and moment arms of muscles in a posture |
 //! | [`wrap`] | paths of muscles over cylinders and spheres |
 //! | [`curves`], [`strength`] | what force a muscle can exert at a length and a speed |
@@ -15,10 +16,13 @@
 /// The body and its mechanics, so that one dependency is enough.
 pub use ambulo_body as body;
 
+pub mod built_in;
 pub mod set;
 
+mod export;
 mod import;
 pub mod path;
+mod scaled;
 pub mod wrap;
 
 pub mod curves;

@@ -6,7 +6,9 @@
 
 mod muscle_models;
 mod shared_data;
+mod wrap_models;
 
+mod built_in;
 mod emg_against_opensim;
 mod emg_comparison;
 mod emg_cycles;
@@ -14,6 +16,10 @@ mod emg_names;
 mod emg_normal_timing;
 mod emg_recordings;
 mod emg_signals;
+mod import;
+mod loads;
 mod paths;
-mod wrap_models;
+mod people;
+mod round_trip;
+mod scaling;
 mod wrap_opensim;

@@ -35,8 +35,9 @@ pub(crate) fn read(bytes: &[u8]) -> MuscleModel {
 
 /// The model with this name; `None` without the shared recordings.
 pub(crate) fn load(name: &str) -> Option<MuscleModel> {
-    let other = ("arm26", "muscles/opensim46/models/arm26.osim");
-    let file = MODELS.into_iter().chain([other]).find(|(known, _)| *known == name).unwrap().1;
+    let others =
+        [("arm26", "muscles/opensim46/models/arm26.osim"), ("ceinms", "muscles/B-ceinms-lowerlimb/gait2392.osim")];
+    let file = MODELS.into_iter().chain(others).find(|(known, _)| *known == name).unwrap().1;
     Some(read(&std::fs::read(shared_data::data()?.join(file)).unwrap()))
 }
 

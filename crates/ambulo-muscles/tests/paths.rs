@@ -20,13 +20,17 @@ fn against_opensim(name: &str, muscles: &MuscleModel, spoil: impl Fn(&mut State)
     let table = Table::read(&format!("paths_{name}.csv"))?;
     let mut paths = PathWorkspace::new(model, set, WrapRule::Exact);
     let mut worst = Differences::default();
-    let mut rows = table.rows.iter();
-    for (_, mut state) in postures(name, model)? {
-        spoil(&mut state);
-        paths.update(state.posture());
-        for (i, muscle) in set.muscles.iter().enumerate() {
-            let row = rows.next().unwrap();
-            assert_eq!(table.text(row, "path"), muscle.name);
+    let states = postures(name, model)?;
+    let mut current = usize::MAX;
+    for row in &table.rows {
+        let posture: usize = table.text(row, "posture").parse().unwrap();
+        if posture != current {
+            current = posture;
+            let mut state = states[posture].1.clone();
+            spoil(&mut state);
+            paths.update(state.posture());
+        }
+        if let Some(i) = set.muscles.iter().position(|muscle| muscle.name == table.text(row, "path")) {
             if table.number(row, "n_wraps_active") > 0.0 {
                 worst.touching += 1;
                 continue;
@@ -42,6 +46,14 @@ fn against_opensim(name: &str, muscles: &MuscleModel, spoil: impl Fn(&mut State)
         }
     }
     Some(worst)
+}
+
+#[test]
+fn paths_of_an_old_document_agree_with_opensim() {
+    let Some(muscles) = load("arm26") else { return };
+    let found = against_opensim("arm26", &muscles, |_| ()).unwrap();
+    println!("arm26: {found:?}");
+    assert!(found.paths > 50 && found.length < 1e-8 && found.arm < 1e-7 && found.speed < 2e-8, "{found:?}");
 }
 
 #[test]
@@ -96,8 +108,7 @@ fn moment_arms_are_the_derivative_of_length() {
                 for muscle in 0..set.muscles.len() {
                     let nodes = paths.nodes(muscle).len();
                     let is_smooth = samples.iter().all(|(_, counts)| counts[muscle] == nodes);
-                    let has_knot = muscles_with_curves(set, muscle);
-                    if !is_smooth || has_knot {
+                    if !is_smooth {
                         continue;
                     }
                     let [a, b, c, d, e, f] = samples.each_ref().map(|(lengths, _)| lengths[muscle]);
@@ -110,8 +121,4 @@ fn moment_arms_are_the_derivative_of_length() {
         println!("{name}: {compared} arms within {worst:.1e} of -dL/dq");
         assert!(compared > 1000 && worst < 1e-9, "{name}: {worst:e} in {compared}");
     }
-}
-
-fn muscles_with_curves(_: &ambulo_muscles::set::MuscleSet, _: usize) -> bool {
-    false
 }

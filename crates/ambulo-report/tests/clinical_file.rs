@@ -4,14 +4,17 @@ use crate::report_pages::{Files, Shown};
 use crate::shared_data;
 use crate::svg_reader::Figure;
 use ambulo::findings::Findings;
-use ambulo::model::{Model, to_osim};
+use ambulo::model::{BySide, Model, to_osim};
 use ambulo::motion::coordinates_from_table;
 use ambulo::numerics::mean;
-use ambulo::study::{self, ForceTable, MeasuredForces, Outcome, Settings, Source};
+use ambulo::study::{self, ForceTable, LegStances, LoadSource, MeasuredForces, Outcome, Settings, Source};
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
 use ambulo_report::{clinical_file, outcome_figures};
-use ambulo_results::{Convention, GroundSource, Input, Keep, Summary, outcome_summary, outcome_tables, summary_json};
+use ambulo_results::{
+    Convention, GroundSource, Input, Keep, Summary, knee_adduction_summary, outcome_summary, outcome_tables,
+    summary_json,
+};
 use std::path::Path;
 
 /// Columns of `clinical.csv` and the panels that show them.
@@ -219,9 +222,9 @@ fn the_peaks_of_the_knee_adduction_moment_are_those_of_its_curve() {
     for (side, found) in stances.iter() {
         let whole = walk.0.stances.iter().filter(|stance| stance.side == side);
         let whole: Vec<_> = whole.filter(|s| s.start_s > times[1] && s.end_s < times[times.len() - 2]).collect();
-        assert_eq!(found.len(), whole.len(), "{side}");
+        assert_eq!((found.stances.len(), found.source), (whole.len(), LoadSource::Measured), "{side}");
         let curve = table.column(&format!("knee_adduction_moment_{}", side.letter())).unwrap();
-        for ([first, second, impulse], stance) in found.iter().zip(whole) {
+        for ([first, second, impulse], stance) in found.stances.iter().zip(whole) {
             let middle = 0.5 * (stance.start_s + stance.end_s);
             let largest = |from: f64, to: f64| {
                 let inside = times.iter().zip(curve).filter(|(t, _)| (from..=to).contains(*t));
@@ -234,7 +237,27 @@ fn the_peaks_of_the_knee_adduction_moment_are_those_of_its_curve() {
             assert!(*impulse > 0.0 && *impulse < first.max(*second) * duration_s, "{side}: impulse");
         }
     }
-    assert!(stances.values().any(|found| !found.is_empty()));
+    assert!(stances.values().any(|found| !found.stances.is_empty()));
     let shown = Shown::of(&files);
     assert!(shown.panel("knee_adduction_moment")["band"]["mean"].is_object(), "Schwartz 2008 has this moment");
+}
+
+#[test]
+fn a_measured_and_a_predicted_leg_are_neither_pooled_nor_compared() {
+    let leg = |source: LoadSource, peak: f64| LegStances { source, stances: vec![[peak, 0.5 * peak, 0.2]] };
+    let [measured, predicted] = [LoadSource::Measured, LoadSource::Predicted];
+    let rows = |right, left| knee_adduction_summary(&BySide { right: leg(right, 0.435), left: leg(left, 0.286) });
+    let mixed = rows(measured, predicted);
+    assert_eq!(mixed.len(), 3);
+    for row in &mixed {
+        assert_eq!((row.both, row.symmetry), (None, None), "{row:?}");
+        assert_eq!(row.source_words(), "right measured, left predicted");
+        let sources = [row.right, row.left].map(|side| side.unwrap().source);
+        assert_eq!(sources, [Some(measured), Some(predicted)]);
+    }
+    let same = rows(measured, measured);
+    assert!(same.iter().all(|row| row.both.unwrap().strides == 2 && row.symmetry.is_some()));
+    assert_eq!(same[0].source_words(), "measured");
+    let words = serde_json::to_value(&mixed[0]).unwrap();
+    assert_eq!((words["right"]["source"].as_str(), words["both"].is_null()), (Some("measured"), true));
 }

@@ -4,6 +4,7 @@ use crate::files::{OutputFile, check_column};
 use ambulo::analysis::{StrideQuantity, StrideStatistics, TimesAndDistances, symmetry_index};
 use ambulo::model::{BySide, Side};
 use ambulo::numerics::{mean, sample_deviation};
+use ambulo::study::{LegStances, LoadSource};
 use ambulo_formats::Error;
 use serde::{Deserialize, Serialize};
 
@@ -37,9 +38,9 @@ pub struct QuantitySummary {
     pub right: Option<SpreadSummary>,
     /// Strides of the left foot.
     pub left: Option<SpreadSummary>,
-    /// Strides of both feet.
+    /// Strides of both feet; `null` if their loads have different sources.
     pub both: Option<SpreadSummary>,
-    /// (right - left) / mean of both; `null` if not meaningful.
+    /// (right - left) / mean of both; `null` if not meaningful, or if their loads have different sources.
     pub symmetry: Option<f64>,
 }
 
@@ -53,6 +54,9 @@ pub struct SpreadSummary {
     pub sd: Option<f64>,
     /// Number of strides.
     pub strides: usize,
+    /// Of a quantity that depends on forces: where the loads of these strides come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<LoadSource>,
 }
 
 impl WalkingSummary {
@@ -102,7 +106,7 @@ impl WalkingSummary {
         }
         for QuantitySummary { quantity, unit, right, left, both, .. } in &self.quantities {
             for (side, spread) in [("r", right), ("l", left), ("both", both)] {
-                let Some(SpreadSummary { mean, sd, strides }) = spread else { continue };
+                let Some(SpreadSummary { mean, sd, strides, .. }) = spread else { continue };
                 check_column(crate::TIMES_AND_DISTANCES, quantity, &[*mean, sd.unwrap_or_default()])?;
                 let sd = sd.map_or_else(String::new, |sd| sd.to_string());
                 text += &format!("{quantity},{unit},{side},{mean},{sd},{strides}\n");
@@ -113,6 +117,17 @@ impl WalkingSummary {
 }
 
 impl QuantitySummary {
+    /// Where the loads come from, in words: `measured`, or `right measured, left predicted`; empty for quantities that
+    /// do not depend on forces and for results of earlier versions.
+    #[must_use]
+    pub fn source_words(&self) -> String {
+        let source = |side: Side| self.side(side).and_then(|spread| spread.source);
+        match (source(Side::Right), source(Side::Left)) {
+            (Some(right), Some(left)) if right != left => format!("right {}, left {}", right.word(), left.word()),
+            (right, left) => right.or(left).map_or_else(String::new, |source| source.word().to_owned()),
+        }
+    }
+
     /// The strides of one foot.
     #[must_use]
     pub fn side(&self, side: Side) -> Option<&SpreadSummary> {
@@ -124,35 +139,40 @@ impl QuantitySummary {
 }
 
 /// First peak, second peak and impulse of the external knee adduction moment over the stances of both legs
-/// ([`ambulo::study::Outcome::knee_adduction`]); empty without stances.
+/// ([`ambulo::study::Outcome::knee_adduction`]); empty without stances. Legs whose loads have different sources are
+/// neither pooled nor compared: predicted peaks are lower than measured ones.
 #[must_use]
-pub fn knee_adduction_summary(stances: &BySide<Vec<[f64; 3]>>) -> Vec<QuantitySummary> {
+pub fn knee_adduction_summary(legs: &BySide<LegStances>) -> Vec<QuantitySummary> {
     let names = [("first_peak", "N.m/kg"), ("second_peak", "N.m/kg"), ("impulse", "N.m.s/kg")];
     let quantity = |(k, (quantity, unit)): (usize, (&str, &str))| {
-        let of = |sides: &[Side]| {
-            let values: Vec<f64> = sides.iter().flat_map(|side| stances[*side].iter().map(|found| found[k])).collect();
-            SpreadSummary::of_values(&values)
+        let values = |side: Side| legs[side].stances.iter().map(|found| found[k]).collect::<Vec<f64>>();
+        let of = |side: Side| SpreadSummary::of_values(&values(side), legs[side].source);
+        let (right, left) = (of(Side::Right), of(Side::Left));
+        let sides = right.zip(left);
+        let is_comparable = sides.is_none_or(|(right, left)| right.source == left.source);
+        let symmetry = sides.and_then(|(right, left)| symmetry_index(right.mean, left.mean));
+        let pooled = || {
+            let source = right.or(left).and_then(|known| known.source)?;
+            SpreadSummary::of_values(&Side::BOTH.map(values).concat(), source)
         };
-        let [right, left] = Side::BOTH.map(|side| of(&[side]));
-        let symmetry = right.zip(left).and_then(|(right, left)| symmetry_index(right.mean, left.mean));
         QuantitySummary {
             quantity: quantity.to_owned(),
             unit: unit.to_owned(),
             right,
             left,
-            both: of(&Side::BOTH),
-            symmetry,
+            both: is_comparable.then(pooled).flatten(),
+            symmetry: symmetry.filter(|_| is_comparable),
         }
     };
     let quantities = names.into_iter().enumerate().map(quantity);
-    quantities.filter(|quantity| quantity.both.is_some()).collect()
+    quantities.filter(|quantity| quantity.right.is_some() || quantity.left.is_some()).collect()
 }
 
 impl SpreadSummary {
     /// Of numbers, one for each stride; `None` without any.
-    fn of_values(values: &[f64]) -> Option<SpreadSummary> {
-        let (sd, strides) = (sample_deviation(values), values.len());
-        (strides > 0).then(|| SpreadSummary { mean: mean(values), sd, strides })
+    fn of_values(values: &[f64], source: LoadSource) -> Option<SpreadSummary> {
+        let (sd, strides, source) = (sample_deviation(values), values.len(), Some(source));
+        (strides > 0).then(|| SpreadSummary { mean: mean(values), sd, strides, source })
     }
 
     fn of(spread: StrideStatistics, factor: f64) -> SpreadSummary {
@@ -160,6 +180,7 @@ impl SpreadSummary {
             mean: factor * spread.mean,
             sd: spread.standard_deviation.map(|sd| factor * sd),
             strides: spread.strides,
+            source: None,
         }
     }
 }

@@ -110,7 +110,6 @@ pub mod internals {
     pub use crate::analysis::prediction_checks::sustained::sustained_maximum;
     pub use crate::analysis::progress::Progress;
     pub use crate::analysis::recording::cycle_mean;
-    pub use crate::analysis::segment_angles::knee_angles;
     pub use crate::analysis::times_and_distances::{Floor, Places, Strike};
     pub use crate::analysis::walking_direction::WalkingDirection;
     pub use crate::ground::predict::center_path::{center_path, share};

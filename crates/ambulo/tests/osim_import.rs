@@ -457,14 +457,13 @@ fn markers_are_on_bodies_on_frames_and_on_ground() {
 
 #[test]
 fn unused_parts_are_counted_in_one_note() {
-    let more = "<ForceSet><objects>\n<Thelen2003Muscle name=\"a\"/><Thelen2003Muscle name=\"b\"/>\
-        <CoordinateActuator name=\"c\"/>\n\
+    let more = "<ForceSet><objects>\n<PathSpring name=\"a\"/><PathSpring name=\"b\"/><Ligament name=\"c\"/>\n\
         </objects></ForceSet>";
     let (_, findings) = import(&custom("q", "", more));
     assert_eq!(findings.as_slice().len(), 1);
     let finding = &findings.as_slice()[0];
     assert_eq!((finding.code, finding.count), (Code::ModelIgnored, 1));
-    assert!(finding.message.ends_with("1 CoordinateActuator, 2 Thelen2003Muscle"), "{finding}");
+    assert!(finding.message.ends_with("1 Ligament, 2 PathSpring"), "{finding}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Varus and rotation of the knee from the markers of thigh and shank.
 
-use ambulo::internals::knee_angles;
+use ambulo::functional::knee_angles;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Marker, Model, Side};

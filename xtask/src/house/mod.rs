@@ -7,6 +7,7 @@
 mod columns;
 mod imports;
 mod items;
+mod pinned;
 mod source;
 mod surface;
 pub(crate) mod tokens;
@@ -51,6 +52,8 @@ struct House {
     circles: Vec<String>,
     /// Test files that no test program contains.
     forgotten_tests: Vec<String>,
+    /// Tests that comments name and that do not exist.
+    missing_tests: Vec<String>,
     /// Lines over [`MOST_COLUMNS`].
     long_lines: Vec<String>,
 }
@@ -93,6 +96,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     print_list("functions over 60 lines", &now.long_functions);
     print_list("circles of files", &now.circles);
     print_list("test files that are not a module of tests/main.rs", &now.forgotten_tests);
+    print_list("tests that a comment names (\"Pinned by\") and that do not exist", &now.missing_tests);
     let shown = if listed { now.long_lines.len() } else { now.long_lines.len().min(MOST_SHOWN) };
     print_list("lines over 120 columns (--list: all of them)", &now.long_lines[..shown]);
     if listed {
@@ -131,7 +135,9 @@ impl House {
         [house.public_types, house.public_functions] = surface::public(&crates, &source::users(workspace)?);
         house.function_lines.sort_unstable();
         house.forgotten_tests = source::forgotten_tests(workspace)?;
-        for file in source::all(workspace)? {
+        let all = source::all(workspace)?;
+        house.missing_tests = pinned::missing(workspace, &all);
+        for file in all {
             let lines = columns::long_lines(&file.text).into_iter();
             house.long_lines.extend(lines.map(|line| format!("{}:{line}", file.path)));
         }
@@ -183,6 +189,13 @@ impl House {
             return Err(
                 "there are test files that never run\nhint: name them in the `tests/main.rs` next to them".to_owned()
             );
+        }
+        if !self.missing_tests.is_empty() {
+            return Err(format!(
+                "comments name {} tests that do not exist\nhint: name the file that has the test now; paths begin at \
+                 the crate, at crates/ambulo or at crates",
+                self.missing_tests.len()
+            ));
         }
         for (part, what, most) in
             [(&self.largest_crate, "crate", LARGEST_CRATE), (&self.largest_module, "module", LARGEST_MODULE)]
@@ -311,6 +324,8 @@ mod tests {
         assert!(house.judge().is_err());
         let house = House { long_functions: vec!["f: 61 lines".to_owned()], ..House::default() };
         assert!(house.judge().is_err_and(|message| message.starts_with("1 functions have more than 60 lines")));
+        let house = House { missing_tests: vec!["a.rs:1 tests/b.rs".to_owned()], ..House::default() };
+        assert!(house.judge().is_err_and(|message| message.starts_with("comments name 1 tests that do not exist")));
         let house = House { long_lines: vec!["a.rs:1".to_owned()], ..House::default() };
         assert!(house.judge().is_err_and(|message| message.starts_with("1 lines have more than 120 columns")));
     }

@@ -44,7 +44,7 @@ codes! {
         "The version of the model file is not one of the known versions."
         "Check the results, or save the model in a known version with OpenSim.";
     ModelIgnored "model.ignored" Note
-        "Muscles, other forces and geometry of the model are not used by inverse dynamics."
+        "Forces, controllers and geometry of the model are not used."
         "Nothing to do.";
     ModelMassless "model.massless" Warning
         "A body of the model has no mass."

@@ -6,6 +6,7 @@
 //! | segments | pelvis, thighs and shanks, each where its own markers are (`segments`) |
 //! | hip centre | symmetrical centre of rotation, refined to the ball joint that fits the markers of the thigh (`hip`) |
 //! | knee axis | symmetrical axis of rotation (`knee`) |
+//! | varus and rotation of the knee | in every frame, from the markers of thigh and shank alone (`segment_angles`) |
 //! | cross-talk | how far varus follows flexion, and the turn of the knee axis that makes it least (`cross_talk`) |
 //!
 //! A joint that the movement does not show is refused, with the range that was found and the range that is needed.
@@ -16,11 +17,13 @@
 mod cross_talk;
 mod hip;
 mod knee;
+mod segment_angles;
 mod segments;
 
 pub use cross_talk::{CrossTalk, knee_cross_talk};
 pub use hip::{FunctionalHip, Rotated, symmetrical_centre};
 pub use knee::{FunctionalKnee, symmetrical_axis};
+pub use segment_angles::knee_angles;
 
 use crate::model::{BySide, Model, Side};
 use crate::motion::MarkerRecording;

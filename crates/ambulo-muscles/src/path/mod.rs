@@ -276,7 +276,7 @@ impl PathWorkspace {
                 }
             };
             wrenches[slot].force += pull;
-            wrenches[slot].moment += (node.place - self.about).cross(&pull);
+            wrenches[slot].moment += (node.acts_at - self.about).cross(&pull);
         }
         let mut speed = 0.0;
         for (slot, wrench) in plan.slots.iter().zip(&*wrenches) {

@@ -162,7 +162,7 @@ class Result:
 
     @property
     def knee_adduction(self) -> list[dict[str, Any]]:
-        """External knee adduction moment in stance: ``first_peak``, ``second_peak`` [N.m/kg] and ``impulse`` [N.m.s/kg] of both legs; empty if unknown."""
+        """External knee adduction moment in stance: ``first_peak``, ``second_peak`` [N.m/kg] and ``impulse`` [N.m.s/kg] of both legs, each with the ``source`` of its forces; empty if unknown."""
         return list(self.summary.get("knee_adduction_moment", []))
 
     @property

@@ -5,7 +5,7 @@
 //! moments about a sensor [N.mm] below the middle of its surface, in its own axes that look down: x_p = -x, y_p = y,
 //! z_p = -z. With o from the sensor to the surface's middle the sensor's moment is M - F × o, M being that about the
 //! middle. The data are synthetic, without noise.
-//! Pinned by: tests/exchange.rs of the command
+//! Pinned by: ambulo-cli/tests/exchange.rs of the command
 
 use super::folder::ExchangeError;
 use ambulo::kinematics::{Trajectory, each_body_motion};

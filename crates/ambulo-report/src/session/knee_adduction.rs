@@ -4,6 +4,7 @@ use super::Session;
 use ambulo::analysis::stance_load;
 use ambulo::model::{BySide, Side};
 use ambulo::study::session::{CycleForces, SessionCycle};
+use ambulo::study::{LegStances, LoadSource};
 use ambulo_results::{QuantitySummary, knee_adduction_summary};
 
 /// Peaks and impulse over the cycles that count: those with measured forces, or, where a side has none, those with
@@ -15,7 +16,10 @@ pub(super) fn knee_adduction(session: &Session) -> Vec<QuantitySummary> {
     };
     knee_adduction_summary(&BySide::from_fn(|side| {
         let measured = of_source(side, CycleForces::Measured);
-        if measured.is_empty() { of_source(side, CycleForces::Predicted) } else { measured }
+        if measured.is_empty() {
+            return LegStances { source: LoadSource::Predicted, stances: of_source(side, CycleForces::Predicted) };
+        }
+        LegStances { source: LoadSource::Measured, stances: measured }
     }))
 }
 

@@ -150,7 +150,7 @@ pub(super) fn times_csv(compared: &ComparedSession) -> String {
         let range = normal.and_then(|normal| normal.range);
         let normal = [normal.and_then(|normal| normal.mean), range.map(|r| r[0]), range.map(|r| r[1])].map(number);
         for (side, spread) in [("r", &found.right), ("l", &found.left), ("both", &found.both)] {
-            let Some(SpreadSummary { mean, sd, strides }) = spread else { continue };
+            let Some(SpreadSummary { mean, sd, strides, .. }) = spread else { continue };
             let symmetry = if side == "both" { number(found.symmetry) } else { String::new() };
             let _ = writeln!(
                 text,

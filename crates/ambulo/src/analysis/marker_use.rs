@@ -9,7 +9,7 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
 
 /// Of the markers of a motion, a body should follow at least this share [1].
-const LEAST_SHARE: f64 = 0.6;
+pub const LEAST_MARKER_SHARE: f64 = 0.6;
 /// Markers that show the pose of a segment without markers of the joint at its end.
 const OF_A_POSE: usize = 3;
 /// Weight of markers that define a joint.
@@ -53,7 +53,7 @@ impl Subject {
         let recorded = recorded(moving, named);
         let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
         let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
-        followed.len() as f64 >= LEAST_SHARE * recorded.len() as f64 && hardly_shown(self, &followed).next().is_none()
+        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64 && hardly_shown(self, &followed).next().is_none()
     }
 }
 
@@ -98,7 +98,7 @@ pub(super) fn report_use(
     let recorded = recorded(moving, &named);
     let followed: Vec<&str> =
         fit.errors.iter().filter(|error| error.rms_m.is_finite()).map(|error| error.name.as_str()).collect();
-    if (followed.len() as f64) < LEAST_SHARE * recorded.len() as f64 {
+    if (followed.len() as f64) < LEAST_MARKER_SHARE * recorded.len() as f64 {
         let unused = recorded.iter().filter(|name| !followed.contains(name)).map(|name| format!("`{name}`"));
         let message = format!(
             "the body follows {} of the {} markers of `{}`; not used: {}",

@@ -24,7 +24,6 @@ pub(crate) mod progress;
 pub(crate) mod recording;
 mod residual;
 mod residual_reduction;
-pub(crate) mod segment_angles;
 mod stance_load;
 mod subject;
 pub(crate) mod times_and_distances;
@@ -51,6 +50,7 @@ pub use laboratory_recording::LaboratoryRecording;
 pub use marker_trial::MarkerTrial;
 pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{BodyInMotion, body_in_motion};
+pub use marker_use::LEAST_MARKER_SHARE;
 pub use peaks::{Peak, peak};
 pub use predicted::analyse_predicted_trajectory;
 #[doc(hidden)]

@@ -8,7 +8,7 @@
 //!
 //! Source: Kutzner 2013 (first and second half of stance; abstract); the positive part of the impulse: convention
 //! (unverified).
-//! Pinned by: tests/stance_load.rs
+//! Pinned by: tests/joint_moments.rs
 
 /// First peak, second peak and impulse of a moment over a stance of this duration [s]. `values` are at even steps from
 /// foot strike to foot off; the impulse is in their unit times a second. `None` with fewer than two values, or if one

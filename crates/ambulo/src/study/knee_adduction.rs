@@ -1,59 +1,96 @@
 //! The external knee adduction moment over the whole stances of an outcome.
 //!
 //! It is the internal abduction moment of the knee's reaction per body mass. If a stance of a leg was measured, only
-//! measured stances of this leg count, otherwise those with predicted or simulated forces. A stance at the edge of the
-//! motion is not whole, nor is one in which a plate felt the foot for a part of the time.
+//! measured stances of this leg count, otherwise those with predicted or simulated forces; [`LegStances::source`] says
+//! which. A stance at the edge of the motion is not whole, nor is one in which a plate felt the foot for a part of the
+//! time.
 //!
-//! Pinned by: tests/joint_moments.rs
+//! Pinned by: tests/joint_moments.rs, tests/stance_loads.rs
 
 use super::outcome::Outcome;
 use crate::analysis::{Analysis, Cycle, Event, EventKind, over_cycle_of, stance_load};
+use crate::findings::word;
 use crate::ground::stances::{Stance, StanceSource};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N};
 use crate::model::anatomy::Movement;
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// Share of a stance at either end in which a foot may still be unloaded.
 const ENDS: f64 = 0.1;
 
-impl Outcome {
-    /// First peak [N.m/kg], second peak [N.m/kg] and impulse [N.m.s/kg] of the external knee adduction moment, for each
-    /// whole stance of each leg ([`stance_load`]). Empty where the moment is not known: legs that move in the sagittal
-    /// plane only, and joints down to the knee that are not measured.
+/// Where the loads of the stances of a leg come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum LoadSource {
+    /// Force plates or a table of forces.
+    Measured,
+    /// The motion.
+    Predicted,
+    /// A simulation of the motion.
+    Simulated,
+}
+
+impl LoadSource {
+    /// The name in files and tables.
     #[must_use]
-    pub fn knee_adduction(&self) -> BySide<Vec<[f64; 3]>> {
+    pub fn word(self) -> &'static str {
+        word(&self)
+    }
+}
+
+/// The knee adduction moment of one leg.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegStances {
+    /// Where the loads of all these stances come from.
+    pub source: LoadSource,
+    /// First peak [N.m/kg], second peak [N.m/kg] and impulse [N.m.s/kg] of each whole stance.
+    pub stances: Vec<[f64; 3]>,
+}
+
+impl Outcome {
+    /// First peak, second peak and impulse of the external knee adduction moment, for each whole stance of each leg
+    /// ([`stance_load`]), all of one source. Without stances where the moment is not known: legs that move in the
+    /// sagittal plane only, and joints down to the knee that are not measured.
+    #[must_use]
+    pub fn knee_adduction(&self) -> BySide<LegStances> {
         let (analysis, model) = (self.complete(), &self.body);
         let moments = analysis.joint_moments(model);
         let movement = Movement::KneeAdduction;
         BySide::from_fn(|side| {
+            let (source, spans) = self.whole_stances(analysis, side);
             if model.anatomy().is_any_above(&self.not_measured, movement, side) {
-                return Vec::new();
+                return LegStances { source, stances: Vec::new() };
             }
             let of_stance = |[start_s, end_s]: [f64; 2]| {
                 let stance = Cycle { side, number: 1, start_s, end_s, foot_off_s: None };
                 let adducting = |frame| moments.at(movement, side, frame).map_or(f64::NAN, |m| -m / analysis.mass.kg);
                 stance_load(&over_cycle_of(analysis.trajectory.grid(), adducting, &stance), end_s - start_s)
             };
-            self.whole_stances(analysis, side).into_iter().filter_map(of_stance).collect()
+            LegStances { source, stances: spans.into_iter().filter_map(of_stance).collect() }
         })
     }
 
-    /// Foot strike and foot off of the stances of a leg that count [s].
-    fn whole_stances(&self, analysis: &Analysis, side: Side) -> Vec<[f64; 2]> {
+    /// Foot strike and foot off of the stances of a leg that count [s], and the source of their loads.
+    fn whole_stances(&self, analysis: &Analysis, side: Side) -> (LoadSource, Vec<[f64; 2]>) {
         let is_whole = |span: &[f64; 2]| {
             is_inside(*span, analysis.trajectory.grid()) && is_loaded(&self.body, analysis, side, *span)
         };
         if self.stances.is_empty() {
-            return contacts(analysis, side).into_iter().filter(is_whole).collect();
+            return (LoadSource::Simulated, contacts(analysis, side).into_iter().filter(is_whole).collect());
         }
         let of_source = |is_meant: fn(&StanceSource) -> bool| -> Vec<[f64; 2]> {
             let own = self.stances.iter().filter(|stance| stance.side == side && is_meant(&stance.source));
             own.map(|Stance { start_s, end_s, .. }| [*start_s, *end_s]).filter(is_whole).collect()
         };
         let measured = of_source(StanceSource::is_measured);
-        if measured.is_empty() { of_source(|source| *source == StanceSource::Predicted) } else { measured }
+        if measured.is_empty() {
+            return (LoadSource::Predicted, of_source(|source| *source == StanceSource::Predicted));
+        }
+        (LoadSource::Measured, measured)
     }
 }
 

@@ -60,6 +60,7 @@ pub use crate::analysis::{ModelProtocol, Stage, Stopped};
 pub use b3d_source::B3dSourceError;
 pub use error::{Input, StudyError};
 pub use force_filter::ForceFilter;
+pub use knee_adduction::{LegStances, LoadSource};
 pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 #[doc(hidden)]
 pub use mass::MassEstimate;

@@ -18,7 +18,7 @@
 //! each other are no sequence, and are left as they are.
 //!
 //! Cost: none in recordings that are followed at once but a look at each frame; about one more sequence otherwise.
-//! Pinned by: tests/marker_attempts.rs
+//! Pinned by: tests/kinematics_attempts.rs
 
 use super::frames::{FEWEST, Frames};
 use super::problem::FitProblem;

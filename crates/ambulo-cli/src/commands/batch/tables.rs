@@ -47,7 +47,7 @@ const NUMBERS: [(&str, &str); 21] = [
     ("knee_adduction_impulse_l_nms_kg", "/knee_adduction_moment/2/left/mean"),
 ];
 /// Texts of the summary in the table of trials.
-const TEXTS: [(&str, &str); 8] = [
+const TEXTS: [(&str, &str); 10] = [
     ("model", "/model"),
     ("mass_source", "/mass/source"),
     ("mass_state", "/mass/state"),
@@ -56,6 +56,8 @@ const TEXTS: [(&str, &str); 8] = [
     ("quality", "/quality/state"),
     ("verdict", "/verdict/state"),
     ("convention", "/convention/used"),
+    ("knee_adduction_source_r", "/knee_adduction_moment/0/right/source"),
+    ("knee_adduction_source_l", "/knee_adduction_moment/0/left/source"),
 ];
 
 /// Makes the tables of a part. `about` are the texts that every table has.

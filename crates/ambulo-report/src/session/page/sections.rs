@@ -72,17 +72,19 @@ pub(super) fn times(compared: &ComparedSession) -> Section {
 }
 
 pub(super) fn knee_adduction(session: &Session) -> Section {
-    let mut table = TextTable::new(&["", "unit", "right", "left", "both", "symmetry %"]);
+    let mut table = TextTable::new(&["", "unit", "right", "left", "both", "symmetry %", "forces"]);
     for found in &session.summary.knee_adduction_moment {
         let cell = |spread_of: &Option<SpreadSummary>| {
             spread_of.map_or(String::new(), |found| spread(found.mean, found.sd, found.strides, 2))
         };
         let [right, left, both] = [&found.right, &found.left, &found.both].map(cell);
         let symmetry = found.symmetry.map_or(String::new(), |index| format!("{:+.0}", 100.0 * index));
-        table.row([found.quantity.replace('_', " "), found.unit.clone(), right, left, both, symmetry]);
+        let name = found.quantity.replace('_', " ");
+        table.row([name, found.unit.clone(), right, left, both, symmetry, found.source_words()]);
     }
     let note = "External moment in stance, mean ± standard deviation, and the number of cycles: the largest values in \
-        the first and in the second half, and the area of the positive part.";
+        the first and in the second half, and the area of the positive part. Sides whose forces have different \
+        sources are neither pooled nor compared.";
     Section { title: "Knee adduction moment", table, note: note.to_owned() }
 }
 

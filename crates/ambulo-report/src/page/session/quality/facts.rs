@@ -2,7 +2,7 @@
 
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::results::Results;
-use ambulo::analysis::PredictionCheck;
+use ambulo::analysis::{LEAST_MARKER_SHARE, PredictionCheck};
 use ambulo::model::Region;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo_results::{ConsistencySummary, MarkersSummary, RegionSummary, ResidualSummary, Summary, WalkSummary};
@@ -92,8 +92,8 @@ fn markers(markers: &MarkersSummary) -> Vec<Judged> {
     let unsettled = none_allowed("Frames in which the marker fit did not converge", markers.frames_not_converged);
     // Folders of earlier versions do not know how many were recorded.
     let used = (markers.recorded > 0).then(|| Judged {
-        allowed: Some("at least 60 %".to_owned()),
-        good: Some(markers.used as f64 >= 0.6 * markers.recorded as f64),
+        allowed: Some(format!("at least {:.0} %", 100.0 * LEAST_MARKER_SHARE)),
+        good: Some(markers.used as f64 >= LEAST_MARKER_SHARE * markers.recorded as f64),
         ..plain("Markers that the body follows", format!("{} of {}", markers.used, markers.recorded))
     });
     all.into_iter().chain(markers.regions.iter().map(of_region)).chain(used).chain([unsettled]).collect()

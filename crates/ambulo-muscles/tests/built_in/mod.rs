@@ -1,0 +1,5 @@
+//! The muscles of the built-in body.
+
+mod arms;
+mod persons;
+mod write_table;

@@ -1,0 +1,1 @@
+//! The set on bodies of several sizes.
