@@ -5,7 +5,6 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod muscle_models;
-mod people;
 mod shared_data;
 mod walks;
 
@@ -23,9 +22,11 @@ mod import;
 mod loads;
 mod optimization;
 mod paths;
+mod people;
 mod round_trip;
 mod scaling;
 mod solver;
 mod strength;
+mod wrap_models;
 mod wrap_models;
 mod wrap_opensim;
