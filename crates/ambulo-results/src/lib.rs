@@ -7,6 +7,8 @@ mod file_names;
 mod files;
 mod folder;
 mod keep;
+mod muscle_summary;
+mod muscle_tables;
 mod outcome;
 mod prediction_files;
 mod run_summary;
@@ -38,6 +40,7 @@ pub use file_names::{
 pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
+pub use muscle_summary::{EmgSummary, MuscleOrigin, MuscleSummary, ReserveSummary};
 pub use outcome::outcome_tables;
 pub use prediction_files::deviation_columns;
 #[cfg(feature = "schema")]
