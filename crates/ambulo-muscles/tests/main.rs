@@ -28,5 +28,4 @@ mod scaling;
 mod solver;
 mod strength;
 mod wrap_models;
-mod wrap_models;
 mod wrap_opensim;
