@@ -43,17 +43,23 @@ class BodyMotions(TypedDict):
 
 @type_check_only
 class MusclePaths(TypedDict):
+    """Paths of the muscles; n frames, m muscles."""
+
     muscles: list[str]
     length: NDArray[np.float64]
     speed: NDArray[np.float64]
     arm: NDArray[np.float64]
 
+@type_check_only
 class MuscleForces(TypedDict):
+    """Muscle forces; n frames, m muscles."""
+
     muscles: list[str]
     activation: NDArray[np.float64]
     force: NDArray[np.float64]
     reserve: NDArray[np.float64]
 
+@type_check_only
 class MarkerFit(TypedDict):
     """Coordinates that follow markers."""
 
