@@ -14,5 +14,7 @@ mod loads;
 mod paths;
 mod round_trip;
 mod scaling;
+mod wrap_chain;
+mod wrap_closed_forms;
 mod wrap_models;
 mod wrap_opensim;
