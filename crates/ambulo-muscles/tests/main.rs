@@ -7,13 +7,26 @@
 mod muscle_models;
 mod people;
 mod shared_data;
+mod walks;
 
 mod built_in;
+mod contact_loads;
+mod curves;
+mod emg_against_opensim;
+mod emg_comparison;
+mod emg_cycles;
+mod emg_names;
+mod emg_normal_timing;
+mod emg_recordings;
+mod emg_signals;
 mod import;
 mod loads;
+mod optimization;
 mod paths;
 mod round_trip;
 mod scaling;
+mod solver;
+mod strength;
 mod wrap_chain;
 mod wrap_closed_forms;
 mod wrap_models;
