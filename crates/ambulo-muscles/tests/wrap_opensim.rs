@@ -94,7 +94,10 @@ fn spheres_agree_with_opensim_on_every_side() {
         assert_eq!(found, 0);
     }
     // It must fail from ends that are moved by a tenth of a micrometre.
-    let moved = rows.iter().filter(|row| row.arc.is_some()).map(|row| Row { ends: [row.ends[0] * 1.000_001, row.ends[1]], ..*row });
+    let moved = rows
+        .iter()
+        .filter(|row| row.arc.is_some())
+        .map(|row| Row { ends: [row.ends[0] * 1.000_001, row.ends[1]], ..*row });
     let found = moved.filter(|row| disagrees(row, &row.route(WrapRule::Exact))).count();
     assert!(rows.is_empty() || found > 200, "{found}");
 }
