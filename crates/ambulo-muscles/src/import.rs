@@ -31,8 +31,8 @@ pub enum MuscleError {
     File(#[from] ambulo_formats::Error),
     /// A document without a muscle that can be used.
     #[error(
-        "the model `{model}` has {found}; expected at least one Thelen2003Muscle or Millard2012EquilibriumMuscle that is \
-         switched on. hint: export the model with its ForceSet"
+        "the model `{model}` has {found}; expected at least one Thelen2003Muscle or Millard2012EquilibriumMuscle that \
+         is switched on. hint: export the model with its ForceSet"
     )]
     NoMuscles {
         /// The model.

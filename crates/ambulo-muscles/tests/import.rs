@@ -22,6 +22,8 @@ fn every_part_of_the_shared_models_is_read() {
         ("ceinms", [92, 322, 26, 8, 0, 0, 0]),
         ("gait10dof", [18, 60, 8, 4, 0, 0, 0]),
         ("rajagopal", [80, 288, 0, 0, 46, 44, 13]),
+        ("opencap", [80, 288, 0, 0, 46, 44, 13]),
+        ("stanford", [80, 288, 0, 0, 46, 40, 3]),
     ];
     for (name, counts) in expected {
         let Some(MuscleModel { set, findings, .. }) = load(name) else { return };
@@ -103,8 +105,8 @@ const TO: &str = "<PathPoint><location>0.1 -0.2 0</location><body>shank</body></
 
 fn muscle(name: &str, points: &str, more: &str) -> String {
     format!(
-        "\n<Thelen2003Muscle name=\"{name}\">{more}<GeometryPath><PathPointSet><objects>{points}</objects></PathPointSet>\
-         <PathWrapSet><objects>{}</objects></PathWrapSet></GeometryPath></Thelen2003Muscle>",
+        "\n<Thelen2003Muscle name=\"{name}\">{more}<GeometryPath><PathPointSet><objects>{points}</objects>\
+         </PathPointSet><PathWrapSet><objects>{}</objects></PathWrapSet></GeometryPath></Thelen2003Muscle>",
         if more.contains("wraps") { "<PathWrap><wrap_object>knob</wrap_object></PathWrap>" } else { "" }
     )
 }

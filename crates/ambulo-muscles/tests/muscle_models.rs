@@ -35,8 +35,12 @@ pub(crate) fn read(bytes: &[u8]) -> MuscleModel {
 
 /// The model with this name; `None` without the shared recordings.
 pub(crate) fn load(name: &str) -> Option<MuscleModel> {
-    let others =
-        [("arm26", "muscles/opensim46/models/arm26.osim"), ("ceinms", "muscles/B-ceinms-lowerlimb/gait2392.osim")];
+    let others = [
+        ("arm26", "muscles/opensim46/models/arm26.osim"),
+        ("ceinms", "muscles/B-ceinms-lowerlimb/gait2392.osim"),
+        ("stanford", "muscles/A-stanford-matlabso/Rajagopal_scaled_Sub1_gasAvoid.osim"),
+        ("opencap", "opencap-adult-83kg/LaiArnoldModified2017_poly_withArms_weldHand_scaled.osim"),
+    ];
     let file = MODELS.into_iter().chain(others).find(|(known, _)| *known == name).unwrap().1;
     Some(read(&std::fs::read(shared_data::data()?.join(file)).unwrap()))
 }

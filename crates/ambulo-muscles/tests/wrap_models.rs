@@ -34,6 +34,31 @@ fn dump_models() {
                             (arm, which) = (difference, column);
                         }
                     }
+                    if (p == 79 || p == 0 || p == 5) && muscle.name == "gasmed_r" {
+                        let o = &set.wraps[muscle.path.wraps[0].object];
+                        let nodes = paths.nodes(i);
+                        let tib = paths.sweep().bodies()[o.body.unwrap().index()].pose * o.pose;
+                        println!("P,{rule:?},{p},{:?},{:?},{:?}", o.pose.rotation, o.pose.translation, o.shape);
+                        for n in nodes {
+                            println!(
+                                "P,{rule:?},{p},{:?},{:?}",
+                                tib.rotation.tr_mul(&(n.place - tib.translation)),
+                                n.arc
+                            );
+                        }
+                    }
+                    if p == 29 && muscle.name == "gaslat_r" {
+                        for n in paths.nodes(i) {
+                            let (name, pose) = n.body.map_or(("ground", ambulo_body::spatial::Pose::IDENTITY), |b| {
+                                (model.bodies()[b.index()].name.as_str(), paths.sweep().bodies()[b.index()].pose)
+                            });
+                            let l = pose.rotation.tr_mul(&(n.place - pose.translation));
+                            println!(
+                                "N,{rule:?},{name},{:.9},{:.9},{:.9},{:.9},{:.9},{:.9},{:?}",
+                                n.place.x, n.place.y, n.place.z, l.x, l.y, l.z, n.arc
+                            );
+                        }
+                    }
                     println!(
                         "D,{name},{rule:?},{p},{kind},{},{},{:e},{active},{n},{arc:.6},{ours:.6},{arm:e},{which},{:?}",
                         muscle.name,

@@ -12,7 +12,7 @@
 //! |---|---|---|
 //! | p | a point in the frame of its segment on the reference body | m |
 //! | o, R | origin and axes of the segment frame in the body: table below | m, - |
-//! | s | length of thigh or shank over that of the reference; for pelvis and feet the mean of thigh + shank of both legs | - |
+//! | s | size over that of the reference: length of thigh or shank; for the pelvis the distance between the markers of the anterior iliac spines where the model has them; otherwise, and for feet, the mean of thigh + shank of both legs | - |
 //! | L, L₀ | length of the path in the neutral posture, with the lengths of the person and of the reference | m |
 //! | V, V₀ | muscle volume of both legs, 47.05 m h + 1289.6 | cm³ |
 //! | m, h | body mass [kg] and stature [m], both statures from thigh and shank | kg, m |
@@ -23,11 +23,11 @@
 //! | thigh | hip centre | y from the knee to the hip, z along the axis of the knee |
 //! | shank | knee centre | y from the ankle to the knee, z along the axis of the knee |
 //! | foot | ankle centre | of the flat foot |
-//! | toes | ball of the foot | of the flat foot; without toe joint the points belong to the foot |
+//! | toes | joint of the toes, but as far to the side as on the reference; without this joint the points belong to the foot | of the flat foot |
 //!
 //! Left legs are mirror images. A force is a volume over a fibre length times a specific tension, which is assumed to be
 //! that of the reference. Coordinates outside hips, knees and ankles (lumbar joint, arms, toes) have no muscle that is
-//! modelled for them and get a motor each, as in the model of Rajagopal and others 2016.
+//! modelled for them and get an unlimited motor each, with the optimal force of the motors of Rajagopal and others 2016.
 //!
 //! Sources: parameters and paths: the header of the data file. Volume: Handsfield and others 2014 (unverified), as in the
 //! public script of D. Stanev with Rajagopal's rule for forces (read).
@@ -46,10 +46,9 @@ use ambulo_body::toml_reader::TomlError;
 use segments::{JointAngle, Leg};
 use table::{LegTable, MuscleRow, PlaceRow, PointRow};
 
-/// Moment of a motor at control 1 [N.m, or N for a translation], as in the model of Rajagopal and others 2016.
+/// Moment of a motor at control 1 [N.m, or N for a translation]: that of the motors of arms and trunk in the model of
+/// Rajagopal and others 2016 (`subject_walk_scaled.osim`, read).
 const MOTOR_FORCE: f64 = 50.0;
-/// Greatest control of a motor: it carries whatever the motion needs.
-const MOTOR_CONTROL: f64 = 1e6;
 /// Least and greatest activation of a muscle, OpenSim's default.
 const ACTIVATION_RANGE: [f64; 2] = [0.01, 1.0];
 /// Muscle volume of both legs: slope [cm³/(kg m)] and intercept [cm³] against body mass times stature.
@@ -208,7 +207,7 @@ fn motors(model: &Model) -> Vec<CoordinateActuator> {
             name: format!("{}_motor", found.name),
             coordinate,
             optimal_force: MOTOR_FORCE,
-            control_range: [-MOTOR_CONTROL, MOTOR_CONTROL],
+            control_range: [f64::NEG_INFINITY, f64::INFINITY],
         })
     });
     free.collect()

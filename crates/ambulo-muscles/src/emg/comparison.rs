@@ -2,7 +2,8 @@
 //!
 //! r is Pearson's correlation of an envelope with the mean activation of the muscles of the model that share its fibres
 //! on its side, at the frames of the motion. EMG precedes force: with a delay d, the activation at t is compared with
-//! the envelope at t - d. The default is d = 0, because activations are not forces and published delays differ.
+//! the envelope at t - d. Use d = 0 unless a delay is known: it differs between muscles and contractions, and a delay
+//! chosen for the largest r would make every comparison look better than it is.
 //!
 //! r says whether two curves rise and fall together; it says nothing about size.
 //!

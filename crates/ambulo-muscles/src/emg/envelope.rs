@@ -6,6 +6,9 @@
 //! 1/(1 + r^(2n)) with r = tan(π f T)/tan(π a T), so x - L_a(x) has r^(2n)/(1 + r^(2n)): exactly the zero-phase
 //! Butterworth high-pass of the same order and cut-off. There is no other filter here.
 //!
+//! Each recorded stretch is filtered alone. It is extended at its ends by its mirror image, xₖ = x₋ₖ: the odd reflection of
+//! motions would turn the level of a rectified signal about its first sample, which is a random number.
+//!
 //! | code | symbol | unit | |
 //! |---|---|---|---|
 //! | `band_hz` | a, b | Hz | 20 and 450; the gain of both passes there is 1/2 |
@@ -22,12 +25,14 @@ use super::signal::{before_filter, is_envelope, of_envelope, of_raw};
 use super::{AnatomicalMuscle, EmgChannel, EmgError, EmgRecording, EmgSignal, Processing};
 use ambulo_body::model::Side;
 use ambulo_body::motion::TimeGrid;
-use ambulo_body::motion::filter::{FilterError, LowPass, MAX_ORDER, low_pass};
+use ambulo_body::motion::filter::{FilterError, LowPass, MAX_ORDER, low_pass_unpadded};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Percentile by which envelopes are divided.
 const LEVEL: f64 = 0.99;
+/// Length of the mirror images at the ends [s]; the slowest filter forgets in less.
+const EXTENSION_S: f64 = 1.0;
 
 /// Settings of the filters.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -141,7 +146,7 @@ fn envelope(channel: &EmgChannel, grid: TimeGrid, settings: &EmgSettings) -> Res
     }
     if is_envelope(samples, &numbers, rate_hz).map_err(of_filter)? {
         let values = samples.iter().map(|x| if x.is_finite() { *x } else { 0.0 }).collect();
-        return Ok(made(Processing::Unchanged, of_envelope(inside(samples, &numbers)), values, numbers));
+        return Ok(made(Processing::Unchanged, EmgSignal::Muscle, values, numbers));
     }
     if settings.band_hz[1] >= 0.5 * rate_hz {
         let highest_hz = settings.band_hz[1];
@@ -151,10 +156,14 @@ fn envelope(channel: &EmgChannel, grid: TimeGrid, settings: &EmgSettings) -> Res
     if let Some(signal) = before_filter(samples, &recorded, rate_hz) {
         return Ok(made(Processing::Filtered, signal, vec![0.0; samples.len()], recorded));
     }
-    let band = band_pass(&centred(samples, &recorded), rate_hz, settings).map_err(of_filter)?;
-    let values = smoothed(&band, rate_hz, settings).map_err(of_filter)?;
-    let inside_band = inside(&band, &recorded);
-    let signal = of_raw(&inside(samples, &recorded), &inside_band, rate_hz, settings)
+    let centred = centred(samples, &recorded);
+    let (mut band, mut values) = (vec![0.0; samples.len()], vec![0.0; samples.len()]);
+    for range in &recorded {
+        let part = band_pass(&centred[range.clone()], rate_hz, settings).map_err(of_filter)?;
+        values[range.clone()].copy_from_slice(&smoothed(&part, rate_hz, settings).map_err(of_filter)?);
+        band[range.clone()].copy_from_slice(&part);
+    }
+    let signal = of_raw(&inside(samples, &recorded), &inside(&band, &recorded), rate_hz, settings)
         .unwrap_or_else(|| of_envelope(inside(&values, &recorded)));
     Ok(made(Processing::Filtered, signal, values, recorded))
 }
@@ -162,16 +171,26 @@ fn envelope(channel: &EmgChannel, grid: TimeGrid, settings: &EmgSettings) -> Res
 /// y = L_b(x - L_a(x)).
 fn band_pass(samples: &[f64], rate_hz: f64, settings: &EmgSettings) -> Result<Vec<f64>, FilterError> {
     let [low, high] = settings.band_hz.map(|cutoff_hz| LowPass { order: settings.band_order, cutoff_hz });
-    let slow = low_pass(samples, rate_hz, low)?;
+    let slow = mirrored_low_pass(samples, rate_hz, low)?;
     let fast: Vec<f64> = samples.iter().zip(slow).map(|(all, slow)| all - slow).collect();
-    low_pass(&fast, rate_hz, high)
+    mirrored_low_pass(&fast, rate_hz, high)
 }
 
 /// L_c(|y|); the filter's undershoot below zero is cut.
 fn smoothed(band: &[f64], rate_hz: f64, settings: &EmgSettings) -> Result<Vec<f64>, FilterError> {
     let rectified: Vec<f64> = band.iter().map(|x| x.abs()).collect();
     let filter = LowPass { order: settings.envelope_order, cutoff_hz: settings.envelope_hz };
-    Ok(low_pass(&rectified, rate_hz, filter)?.into_iter().map(|x| x.max(0.0)).collect())
+    Ok(mirrored_low_pass(&rectified, rate_hz, filter)?.into_iter().map(|x| x.max(0.0)).collect())
+}
+
+/// L, of a signal that is extended by its mirror image at both ends.
+fn mirrored_low_pass(samples: &[f64], rate_hz: f64, filter: LowPass) -> Result<Vec<f64>, FilterError> {
+    let pad = ((EXTENSION_S * rate_hz) as usize).min(samples.len().saturating_sub(1));
+    let before = samples.iter().skip(1).take(pad).rev();
+    let after = samples.iter().rev().skip(1).take(pad);
+    let extended: Vec<f64> = before.chain(samples).chain(after).copied().collect();
+    let filtered = low_pass_unpadded(&[extended], rate_hz, filter).map_err(|(_, error)| error)?;
+    Ok(filtered.into_iter().flatten().skip(pad).take(samples.len()).collect())
 }
 
 /// Divides filtered envelopes by the 99th percentile of their channel over the visit.

@@ -7,13 +7,16 @@ use std::ops::Range;
 const HELD_S: f64 = 0.1;
 /// Where the smallest step of a signal is larger than this share of its root mean square, quiet parts repeat a number.
 const COARSE: f64 = 0.05;
+/// Recorded stretches shorter than this are left out: a filter would show their ends only [s].
+const SHORTEST_S: f64 = 0.1;
 
 /// Ranges of samples that are numbers.
 pub(super) fn numbers(samples: &[f64]) -> Vec<Range<usize>> {
     ranges(samples.len(), |i| samples[i].is_finite())
 }
 
-/// Ranges of samples of a raw signal that were recorded: numbers that are not held longer than [`HELD_S`].
+/// Ranges of samples of a raw signal that were recorded: numbers that are not held longer than [`HELD_S`], in stretches
+/// of at least [`SHORTEST_S`].
 pub(super) fn recorded(samples: &[f64], rate_hz: f64) -> Vec<Range<usize>> {
     let is_coarse = smallest_step(samples) > COARSE * rms(&centred(samples, &numbers(samples)));
     let longest = (HELD_S * rate_hz) as usize;
@@ -26,7 +29,9 @@ pub(super) fn recorded(samples: &[f64], rate_hz: f64) -> Vec<Range<usize>> {
         }
         start = end;
     }
-    ranges(samples.len(), |i| is_recorded[i])
+    let mut found = ranges(samples.len(), |i| is_recorded[i]);
+    found.retain(|range| range.len() as f64 >= SHORTEST_S * rate_hz);
+    found
 }
 
 /// The samples minus their mean; zero where nothing was recorded.

@@ -2,12 +2,14 @@
 //!
 //! | rule | threshold | measured in walking (README of the data) |
 //! |---|---|---|
-//! | an envelope: power above 15 Hz, as a share of the variance; most negative value, as a share of the largest | < 0.1; > -0.2 | raw channels ≥ 0.7 of the power |
+//! | an envelope: 5th percentile, as a share of the 99th; power above 15 Hz, as a share of the variance; its root mean square frequency | > -0.2; < 0.1; < 40 Hz | raw channels -0.3 or less, or an offset; ≥ 0.4 without drift; ≥ 57 Hz |
 //! | not recorded: samples that are numbers and not held | < 0.5 s | filled ends of trials |
 //! | constant: all samples equal | | zeros |
 //! | saturated: samples equal to the largest or the smallest one | > 0.5 % | loose electrodes ≥ 1 %, others two samples |
 //! | noise: root mean square frequency in the band, as a share of that of white noise | > 0.75 | muscles ≤ 0.67, amplifier noise ≥ 0.75 |
 //! | steady: 95th percentile of the envelope over its 10th | < 3 | muscles ≥ 3.4, noise and mains hum 1.1 to 3 |
+//!
+//! Of an envelope of a file only the rules for too few and equal samples are asked.
 //!
 //! √(Σ f² P / Σ P) = rate/π asin(½ √(Σ (xₖ₊₁ - xₖ)² / Σ xₖ²)) up to the spread of P, the root mean square frequency;
 //! for white noise between a and b it is √((b³ - a³)/(3 (b - a))).
@@ -28,8 +30,13 @@ use std::ops::Range;
 const ENVELOPE_HZ: f64 = 15.0;
 /// An envelope has less than this share of its variance above [`ENVELOPE_HZ`].
 const ENVELOPE_POWER: f64 = 0.1;
-/// An envelope whose offset was removed may be negative by this share of its largest value.
+/// With less, what is above is rounding.
+const ROUNDING_POWER: f64 = 1e-4;
+/// An envelope whose offset was removed may be negative by this share of its 99th percentile.
 const ENVELOPE_NEGATIVE: f64 = 0.2;
+/// What is above [`ENVELOPE_HZ`] in an envelope is the skirt of its filter and has a lower frequency than this; a raw
+/// signal whose drift is larger than itself has a higher one [Hz].
+const SKIRT_HZ: f64 = 40.0;
 /// Order of the filter that separates both.
 const ENVELOPE_ORDER: usize = 4;
 /// Less than this is too short to be judged [s].
@@ -122,7 +129,8 @@ impl fmt::Display for EmgSignal {
 /// # Errors
 /// The filter's.
 pub(super) fn is_envelope(samples: &[f64], numbers: &[Range<usize>], rate_hz: f64) -> Result<bool, FilterError> {
-    let (low, high) = extremes(&inside(samples, numbers));
+    let values = inside(samples, numbers);
+    let (low, high) = (percentile(values.clone(), 0.05), percentile(values, 0.99));
     if !(high > 0.0 && low > -ENVELOPE_NEGATIVE * high) {
         return Ok(false);
     }
@@ -132,7 +140,14 @@ pub(super) fn is_envelope(samples: &[f64], numbers: &[Range<usize>], rate_hz: f6
     let centred = centred(samples, numbers);
     let slow = low_pass(&centred, rate_hz, LowPass { order: ENVELOPE_ORDER, cutoff_hz: ENVELOPE_HZ })?;
     let fast: Vec<f64> = centred.iter().zip(&slow).map(|(all, slow)| all - slow).collect();
-    Ok(rms(&fast).powi(2) < ENVELOPE_POWER * rms(&centred).powi(2))
+    let share = (rms(&fast) / rms(&centred)).powi(2);
+    Ok(share < ROUNDING_POWER || share < ENVELOPE_POWER && rms_frequency(&fast, rate_hz) < SKIRT_HZ)
+}
+
+/// Root mean square frequency of a signal without offset [Hz].
+fn rms_frequency(samples: &[f64], rate_hz: f64) -> f64 {
+    let steps: Vec<f64> = samples.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    rate_hz / PI * asin((0.5 * rms(&steps) / rms(samples)).min(1.0))
 }
 
 /// What can be said before any filter: whether enough was recorded, and whether it changes.
@@ -163,12 +178,11 @@ pub(super) fn of_raw(values: &[f64], band: &[f64], rate_hz: f64, settings: &EmgS
     }
     let [a, b] = settings.band_hz;
     let white_hz = ((b.powi(3) - a.powi(3)) / (3.0 * (b - a))).sqrt();
-    let steps: Vec<f64> = band.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let frequency_hz = rate_hz / PI * asin((0.5 * rms(&steps) / rms(band)).min(1.0));
+    let frequency_hz = rms_frequency(band, rate_hz);
     (frequency_hz > WHITE * white_hz).then_some(EmgSignal::Noise { frequency_hz })
 }
 
-/// Whether an envelope changes.
+/// Whether the envelope of a raw signal changes.
 pub(super) fn of_envelope(values: Vec<f64>) -> EmgSignal {
     let low = percentile(values.clone(), 0.1);
     let high = percentile(values, 0.95);

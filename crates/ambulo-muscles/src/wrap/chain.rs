@@ -69,7 +69,7 @@ impl Chain {
         for link in &self.links {
             contacts[link.surface] = Contact::Touching;
             let body = surfaces[link.surface].body;
-            let node = |place, arc| PathNode { body, place, arc, surface: Some(link.surface) };
+            let node = |place, arc| PathNode { body, place, acts_at: place, arc, surface: Some(link.surface) };
             nodes.extend([node(link.from, Some(link.length)), node(link.to, None)]);
         }
     }

@@ -85,8 +85,11 @@ pub struct PathSurface {
 pub struct PathNode {
     /// The body on which the path pulls here; `None` is ground.
     pub body: Option<BodyId>,
-    /// Where it is in the world [m].
+    /// Where the straight parts of the path end, in the world [m].
     pub place: Vec3,
+    /// Where the path pulls on the body, in the world [m]: the same place, except in paths of OpenSim over several
+    /// surfaces.
+    pub acts_at: Vec3,
     /// Length of the arc from here to the next node [m]; `None` if the path is straight there, or ends here.
     pub arc: Option<f64>,
     /// Index of the surface whose arc begins or ends here; `None` is an anchor.
@@ -113,6 +116,7 @@ pub struct PathRoute {
     nodes: Vec<PathNode>,
     contacts: Vec<Contact>,
     chain: chain::Chain,
+    first_places: opensim::FirstPlaces,
 }
 
 impl PathRoute {
@@ -125,7 +129,8 @@ impl PathRoute {
         self.contacts.clear();
         self.contacts.resize(surfaces.len(), Contact::Free);
         if rule == WrapRule::OpenSim {
-            return opensim::find(anchors, surfaces, &mut self.contacts, &mut self.nodes);
+            let search = opensim::Search { surfaces, first_places: &mut self.first_places };
+            return search.find(anchors, &mut self.contacts, &mut self.nodes);
         }
         for (k, anchor) in anchors.iter().enumerate() {
             self.nodes.push(anchor.node());
@@ -172,7 +177,7 @@ impl PathRoute {
 
 impl PathAnchor {
     fn node(&self) -> PathNode {
-        PathNode { body: self.body, place: self.place, arc: None, surface: None }
+        PathNode { body: self.body, place: self.place, acts_at: self.place, arc: None, surface: None }
     }
 }
 
@@ -198,7 +203,10 @@ impl PathSurface {
 
     /// Both ends of an arc as nodes.
     fn nodes(&self, index: usize, arc: &Arc) -> [PathNode; 2] {
-        let node = |place, arc| PathNode { body: self.body, place: self.pose.place(place), arc, surface: Some(index) };
+        let node = |place, arc| {
+            let place = self.pose.place(place);
+            PathNode { body: self.body, place, acts_at: place, arc, surface: Some(index) }
+        };
         [node(arc.from, Some(arc.length)), node(arc.to, None)]
     }
 }

@@ -2,20 +2,24 @@
 //!
 //! 1. Seen along the axis, tangents from each end touch at two places, one in either sense of turning. Those are taken
 //!    that belong together and have the shorter arc or, on a one-sided cylinder, lie on its permitted side.
-//! 2. A plane through both ends and an apex on the surface gives the heights of the two tangent points. The apex
-//!    is opposite the point that divides the straight line by the distances of its ends from the axis.
+//! 2. The heights of the two tangent points are those of the plane through both ends and a point of the axis, at the
+//!    height of the point that divides the straight line in the ratio of the distances of its ends from the axis.
 //! 3. The arc is the helix between the tangent points. The helix of a geodesic would have the slope of the tangents;
 //!    this one has not, so it is too long: at most 0.14 mm in walking with Rajagopal's model.
-//! 4. Only if the path has several wraps, both heights are moved until tangents and helix agree within 0.1°.
+//! 4. Only if the path has several wraps, both heights are moved until tangents and helix agree within 0.1°. The second
+//!    point is compared with a helix that was already shifted by the move of the first.
 //!
-//! Source: opensim-org/opensim-core, OpenSim/Simulation/Wrap/WrapCylinder.cpp, read at 009c3430, steps restated; that
-//! step 4 needs several wraps is pull request 3125.
-//! Pinned by: tests/wrap_opensim.rs.
+//! An arc of more than half a turn gets the angle 2π - θ, where θ is positive about the axis. If such an arc turns
+//! positively itself, θ is negative and the arc is counted a full turn too long.
+//!
+//! Source: opensim-org/opensim-core, OpenSim/Simulation/Wrap/WrapCylinder.cpp, read at 009c3430 and in a later version
+//! with the angle by `atan2`; steps restated. That step 4 needs several wraps is pull request 3125.
+//! Pinned by: tests/wrap_opensim.rs, tests/wrap_models.rs.
 
 use super::Arc;
 use super::opensim::Verdict;
 use crate::set::Quadrant;
-use ambulo_body::numerics::elementary::{acos, cos, hypot, sin};
+use ambulo_body::numerics::elementary::{acos, atan2, cos, hypot, sin};
 use ambulo_body::spatial::Vec3;
 use std::f64::consts::{PI, TAU};
 
@@ -25,12 +29,14 @@ const PIECE_M: f64 = 0.002;
 const SLOPE_RAD: f64 = 0.1 * PI / 180.0;
 /// Moves of the heights.
 const MOST_MOVES: usize = 100;
-/// A move goes this much further than the height that would agree.
+/// A move in multiples of the move after which the slopes would agree.
 const OVERSHOOT: f64 = 1.5;
 /// Squared sine of the angle to the axis below which a line counts as parallel.
 const PARALLEL: f64 = 2e-13;
-/// Twenty metres of a line parallel to the axis rise at least this much over the plane of step 2 [m].
-const LEAST_RISE: f64 = 1e-5;
+/// Component along the axis of the unit normal of the plane of step 2 below which the plane is not used.
+const LEAST_NORMAL: f64 = 1e-5 / 20.0;
+/// The plane moves a tangent point no further than this [m].
+const FURTHEST_M: f64 = 10.0;
 
 /// What OpenSim does with the straight part from `a` to `b`, in the axes of a cylinder of this radius and length;
 /// `several`: whether the path has several wraps.
@@ -40,8 +46,8 @@ pub(super) fn verdict(
     quadrant: Option<Quadrant>,
     several: bool,
 ) -> Verdict {
-    let ends = [a, b].map(|place| hypot(place.x, place.y));
-    if ends.iter().any(|distance| distance * distance < radius * radius) {
+    let distances = [a, b].map(|place| hypot(place.x, place.y));
+    if distances.iter().any(|distance| distance * distance < radius * radius) {
         return Verdict::Inside;
     }
     let (nearest, crosses) = nearest_to_axis([a, b], radius);
@@ -49,16 +55,15 @@ pub(super) fn verdict(
     let Some(course) = Course::of([a, b], (nearest, crosses), &candidates, quadrant) else {
         return Verdict::Straight;
     };
-    let mut touches = heights([a, b], ends, radius, &course);
+    let mut touches = heights([a, b], distances, course.touches);
     let half = length / 2.0;
     if touches.iter().all(|touch| touch.z.abs() > half) {
         return Verdict::Straight;
     }
-    let helix = match several {
-        true => slide([a, b], &mut touches, radius, course.long),
-        false => Helix::of(touches, radius, course.long),
-    };
-    let Helix { length, angle, sense, .. } = helix;
+    if several {
+        slide([a, b], &mut touches, radius, course.long);
+    }
+    let Helix { angle, sense, length, .. } = Helix::of(touches, radius, course.long);
     let arc = Arc { from: touches[0], to: touches[1], length, angle, sense, crosses };
     if course.mandatory { Verdict::Mandatory(arc) } else { Verdict::Possible(arc) }
 }
@@ -94,11 +99,9 @@ impl Candidates {
     }
 }
 
-/// Which tangent points were taken, and what that says about the arc.
+/// Which tangent points were taken, at the heights of the ends, and what that says about the arc.
 struct Course {
     touches: [Vec3; 2],
-    /// The apex lies on the other side of the axis than the straight line.
-    far: bool,
     /// The arc is more than half a turn.
     long: bool,
     mandatory: bool,
@@ -115,9 +118,8 @@ impl Course {
         let around = [[one.positive, two.negative], [one.negative, two.positive]];
         let angles = around.map(|[from, to]| angle_between(from, to));
         let Some(side) = quadrant else {
-            let positive = angles[0] < angles[1];
-            let touches = around[usize::from(!positive)];
-            return crosses.then_some(Course { touches, far: false, long: false, mandatory: true });
+            let touches = around[usize::from(angles[0] >= angles[1])];
+            return crosses.then_some(Course { touches, long: false, mandatory: true });
         };
         let on_side = ends.map(|end| side.holds(&end));
         if on_side.contains(&true) && !crosses && (on_side[0] == on_side[1] || side.holds(&nearest)) {
@@ -132,12 +134,11 @@ impl Course {
                 [false, second] => both || second || angles[0] > angles[1],
             },
         };
-        let far = if positive { angles[0] > angles[1] } else { angles[0] <= angles[1] };
         let touches = around[usize::from(!positive)];
         let flat = |v: Vec3| Vec3::new(v.x, v.y, 0.0);
         let pull = touches[0] - ends[0] + touches[1] - ends[1];
         let long = flat(touches[0] + touches[1]).dot(&flat(pull)) < 0.0;
-        Some(Course { touches, far, long, mandatory: crosses && on_side.contains(&true) })
+        Some(Course { touches, long, mandatory: crosses && on_side.contains(&true) })
     }
 }
 
@@ -148,24 +149,17 @@ fn angle_between(a: Vec3, b: Vec3) -> f64 {
 }
 
 /// The tangent points at the heights where the plane of step 2 meets the lines through them along the axis.
-fn heights([a, b]: [Vec3; 2], ends: [f64; 2], radius: f64, course: &Course) -> [Vec3; 2] {
-    let share = ends[0] / (ends[0] + ends[1]);
-    let middle = a + (b - a) * share;
-    let center = Vec3::new(0.0, 0.0, middle.z);
-    let unit = |v: Vec3| v.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-    let across = unit(Vec3::z().cross(&unit((a - center).cross(&(b - center)))));
-    let [one, two] = [center + across * radius, center - across * radius];
-    let one_is_nearer = (middle - one).norm_squared() < (middle - two).norm_squared();
-    let apex = if one_is_nearer == course.far { two } else { one };
-    let normal = unit(unit(a - apex).cross(&unit(b - apex)));
-    let mut touches = course.touches;
+fn heights([a, b]: [Vec3; 2], distances: [f64; 2], mut touches: [Vec3; 2]) -> [Vec3; 2] {
+    let share = distances[0] / (distances[0] + distances[1]);
+    let center = Vec3::new(0.0, 0.0, a.z + (b.z - a.z) * share);
+    let normal = (a - center).cross(&(b - center)).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+    if normal.z.abs() < LEAST_NORMAL {
+        return touches;
+    }
     for (touch, other) in touches.iter_mut().zip([b.z, a.z]) {
-        if (20.0 * normal.z).abs() < LEAST_RISE {
-            continue;
-        }
         let height = a.z - (normal.x * (touch.x - a.x) + normal.y * (touch.y - a.y)) / normal.z;
-        // No further from the other end than the own end is, and within ten metres.
-        if (height - other).abs() < (a.z - b.z).abs() && (height - touch.z).abs() <= 10.0 {
+        // No further from the other end than the own end is.
+        if (height - other).abs() < (a.z - b.z).abs() && (height - touch.z).abs() <= FURTHEST_M {
             touch.z = height;
         }
     }
@@ -174,48 +168,45 @@ fn heights([a, b]: [Vec3; 2], ends: [f64; 2], radius: f64, course: &Course) -> [
 
 /// The helix between two tangent points.
 struct Helix {
-    from: Vec3,
-    rise: f64,
-    /// Angle of the arc and its sense about z.
+    /// Angle of the arc, about the axis times `sense`.
     angle: f64,
     sense: f64,
+    rise: f64,
     length: f64,
 }
 
 impl Helix {
     fn of([from, to]: [Vec3; 2], radius: f64, long: bool) -> Helix {
-        let short = angle_between(from, to);
-        let turns_positively = (from.x * to.y - from.y * to.x > 0.0) != long;
-        let angle = if long { TAU - short } else { short };
+        let short = atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+        let (angle, sense) = if long { (TAU - short, -1.0) } else { (short, 1.0) };
         let rise = to.z - from.z;
-        let sense = if turns_positively { 1.0 } else { -1.0 };
-        Helix { from, rise, angle, sense, length: hypot(radius * angle, rise) }
+        Helix { angle, sense, rise, length: hypot(radius * angle, rise) }
     }
 
-    /// The point after this share of the length.
-    fn at(&self, share: f64) -> Vec3 {
+    /// The point after this share of the length, if the helix begins at `from`.
+    fn at(&self, from: Vec3, share: f64) -> Vec3 {
         let angle = self.sense * share * self.angle;
         let (c, s) = (cos(angle), sin(angle));
-        let [x, y, z] = [self.from.x, self.from.y, self.from.z];
-        Vec3::new(c * x - s * y, s * x + c * y, z + share * self.rise)
+        Vec3::new(c * from.x - s * from.y, s * from.x + c * from.y, from.z + share * self.rise)
     }
 }
 
 /// Moves the tangent points along the axis until tangents and helix agree in slope.
-fn slide(ends: [Vec3; 2], touches: &mut [Vec3; 2], radius: f64, long: bool) -> Helix {
+fn slide(ends: [Vec3; 2], touches: &mut [Vec3; 2], radius: f64, long: bool) {
     for _ in 0..MOST_MOVES {
         let helix = Helix::of(*touches, radius, long);
         let pieces = (helix.length / PIECE_M).floor();
         if pieces < 2.0 {
-            return helix;
+            return;
         }
-        let next = [helix.at(1.0 / pieces), helix.at(1.0 - 1.0 / pieces)];
-        let moved = [0, 1].map(|end| slide_one(ends[end], &mut touches[end], next[end]));
-        if !moved.contains(&true) {
-            return helix;
+        let next = helix.at(touches[0], 1.0 / pieces);
+        let first = slide_one(ends[0], &mut touches[0], next);
+        let next = helix.at(touches[0], 1.0 - 1.0 / pieces);
+        let last = slide_one(ends[1], &mut touches[1], next);
+        if !(first || last) {
+            return;
         }
     }
-    Helix::of(*touches, radius, long)
 }
 
 /// Moves a tangent point if the slope of its tangent differs from that to the `next` point of the helix.

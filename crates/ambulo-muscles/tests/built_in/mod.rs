@@ -1,5 +1,6 @@
 //! The muscles of the built-in body.
 
 mod arms;
+mod contact;
 mod persons;
 mod write_table;

@@ -26,20 +26,20 @@ const HEADER: &str = "\
 # Yamaguchi, Zajac 1989.
 # Licence of the model: Creative Commons Attribution 3.0 (CC BY 3.0, http://creativecommons.org/licenses/by/3.0/), stated
 # in its <credits>; licence of the repository: Apache-2.0. Carried over: points of the paths and parameters. Changed: the
-# points are in other frames (below), and so are the angles of conditional and moving points; where a range reached the
-# end of the coordinate's own range, it has no end here.
+# points are in other frames (below); where the range of a conditional point reached the end of the coordinate's own
+# range, it has no end here.
 #
-# Markers of the iliac spines for `spines_rad`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml` (opensim-models).
+# Markers of the iliac spines for `spines_rad` and `spines_m`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml` (opensim-models).
 #
 # Places in m, angles in rad. Axes: x forward, y up, z to the right; origins: own hip centre (pelvis, thigh), knee
 # (shank), ankle (foot), ball of the foot (toes). y of the thigh points from the knee to the hip, y of the shank from the
-# ankle to the knee. Angles: flexion of the hip and extension of the knee between these axes.
+# ankle to the knee. Angles: flexion of the hip and extension of the knee from the straight leg.
 #
 # AMBULO_WRITE=1 cargo test -p ambulo-muscles write_table writes this file from shared/data/muscles/B-ceinms-lowerlimb.
 ";
 
-/// Markers of the iliac spines of Gait2392's marker set in its pelvis [m]: forward and up.
-const SPINES: [[f64; 2]; 2] = [[0.02, 0.03], [-0.16, 0.04]];
+/// Markers of the iliac spines of Gait2392's marker set in its pelvis [m]: right anterior one, and sacrum.
+const SPINES: [[f64; 3]; 2] = [[0.02, 0.03, 0.128], [-0.16, 0.04, 0.0]];
 /// Flexion over which the hinge is fitted: the whole range of Gait2392's knee [deg].
 const FLEXION_DEG: i32 = 120;
 /// An end of a range that is at least that of the coordinate, less this, is none [rad].
@@ -130,12 +130,11 @@ impl Source {
         }
     }
 
-    /// The joint of a coordinate, and the angle between segments at its zero.
-    fn joint(&self, coordinate: &str) -> (&'static str, f64) {
-        let turn = |axes: &Mat3| atan2(axes.m21, axes.m11);
+    /// The joint of a coordinate. Its zero is the straight leg here as there.
+    fn joint(coordinate: &str) -> &'static str {
         match coordinate {
-            "hip_flexion_r" => ("hip", turn(&self.thigh)),
-            "knee_angle_r" => ("knee", turn(&self.shank) - turn(&self.thigh)),
+            "hip_flexion_r" => "hip",
+            "knee_angle_r" => "knee",
             _ => panic!("a point that follows {coordinate}"),
         }
     }
@@ -150,10 +149,10 @@ impl Source {
             OsimPointPlace::Conditional { location_m, coordinate, range } => {
                 let (segment, place) = self.place(&point.frame.body, Vec3::from(*location_m));
                 let name = coordinate.as_deref().unwrap();
-                let (joint, zero) = self.joint(name);
+                let joint = Source::joint(name);
                 let own = self.model.coordinates()[self.model.coordinate(name).unwrap().index()].range.unwrap();
-                let low = if range[0] <= own[0] + END { -NO_END } else { range[0] + zero };
-                let high = if range[1] >= own[1] - END { NO_END } else { range[1] + zero };
+                let low = if range[0] <= own[0] + END { -NO_END } else { range[0] };
+                let high = if range[1] >= own[1] - END { NO_END } else { range[1] };
                 format!(
                     "{{ on = \"{segment}\", at = {}, joint = \"{joint}\", between = {} }}",
                     numbers(place.as_slice()),
@@ -165,7 +164,7 @@ impl Source {
     }
 
     fn moving(&self, bone: &str, axes: &[(Option<String>, OsimFunction); 3]) -> String {
-        let (joint, zero) = self.joint(axes[0].0.as_deref().unwrap());
+        let joint = Source::joint(axes[0].0.as_deref().unwrap());
         assert!(axes.iter().all(|(name, _)| *name == axes[0].0));
         let OsimFunction::SimmSpline(knots) = &axes[0].1 else { panic!("another function than a spline") };
         let OsimFunction::SimmSpline(of_y) = &axes[1].1 else { panic!("another function than a spline") };
@@ -178,11 +177,10 @@ impl Source {
         let spline = SimmSpline::new(Knots::new(knots.x.clone(), column(2)).unwrap()).unwrap();
         let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]);
         assert!(knots.x.windows(2).all(|x| (spline.at(middle(x))[0] - at(middle(x)).1.z).abs() < 1e-9));
-        let angles: Vec<f64> = knots.x.iter().map(|x| x + zero).collect();
         format!(
             "{{ on = \"{}\", joint = \"{joint}\", angles = {}, x = {}, y = {}, z = {} }}",
             at(0.0).0,
-            numbers(&angles),
+            numbers(&knots.x),
             numbers(&column(0)),
             numbers(&column(1)),
             numbers(&column(2))
@@ -218,6 +216,7 @@ fn table(source: &Source) -> String {
     let mut line = |words: String| writeln!(text, "{words}").unwrap();
     line(format!("thigh_m = {:?}\nshank_m = {:?}", number(source.thigh_m), number(source.shank_m)));
     line(format!("ball_m = {}\nspines_rad = {:?}", numbers(source.ball.as_slice()), number(spines)));
+    line(format!("spines_m = {:?}", number(2.0 * SPINES[0][2])));
     line("\n[curves]".to_owned());
     let words = [
         "tendon_strain_at_max",
