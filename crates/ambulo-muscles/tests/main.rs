@@ -27,5 +27,7 @@ mod round_trip;
 mod scaling;
 mod solver;
 mod strength;
+mod wrap_chain;
+mod wrap_closed_forms;
 mod wrap_models;
 mod wrap_opensim;

@@ -7,6 +7,9 @@
 //!   p_j = T2_j(p_(j-1), q_j),   q_j = T1_(j+1)(p_j, q_(j+1)),
 //! where T1 and T2 are the tangent points of the closed form, with derivatives in closed form too.
 //!
+//! A cylinder that may be passed on either side is passed on the side that is shorter between its neighbours. Where that
+//! is not clear by far, all combinations of sides are tried, and the shortest path is taken.
+//!
 //! The search begins anew in every posture, so the path does not depend on earlier postures.
 //!
 //! Source: own derivation. Cost: about ten closed forms for two surfaces.
@@ -26,6 +29,13 @@ const SETTLED_M: f64 = 1e-14;
 /// A move after which the search has ended, if a sweep moves tangent points no more than this [m].
 const ENDED_M: f64 = 1e-13;
 
+/// Turn around a cylinder above which the path on its other side is tried [rad]; half a turn is as far on both sides.
+const DOUBTFUL_RAD: f64 = 2.0;
+/// Cylinders whose sides are tried.
+const MOST_DOUBTFUL: usize = 4;
+/// A path must be this much shorter to be preferred [m].
+const SHORTER_M: f64 = 1e-12;
+
 /// An arc of the path, in world axes.
 #[derive(Debug, Clone, Copy)]
 struct Link {
@@ -40,6 +50,11 @@ struct Link {
 pub(super) struct Chain {
     links: Vec<Link>,
     contacts: Vec<Contact>,
+    /// The sense of turning around each cylinder, where it is prescribed.
+    senses: Vec<Option<f64>>,
+    doubtful: Vec<usize>,
+    best_links: Vec<Link>,
+    best_contacts: Vec<Contact>,
     matrix: DenseLu,
     right: Vec<f64>,
 }
@@ -53,18 +68,10 @@ impl Chain {
         contacts: &mut [Contact],
         nodes: &mut Vec<PathNode>,
     ) {
-        self.links.clear();
-        for _ in 0..MOST_SWEEPS {
-            self.contacts.clear();
-            self.contacts.resize(surfaces.len(), Contact::Free);
-            let (changed, moved) = self.sweep(ends, part, surfaces);
-            if !changed && moved <= ENDED_M {
-                break;
-            }
-            if !changed {
-                self.newton(ends, surfaces);
-            }
-        }
+        self.senses.clear();
+        self.senses.resize(surfaces.len(), None);
+        self.solve(ends, part, surfaces);
+        self.try_other_sides(ends, part, surfaces);
         contacts.iter_mut().zip(&self.contacts).for_each(|(kept, found)| super::note(kept, *found));
         for link in &self.links {
             contacts[link.surface] = Contact::Touching;
@@ -72,6 +79,78 @@ impl Chain {
             let node = |place, arc| PathNode { body, place, acts_at: place, arc, surface: Some(link.surface) };
             nodes.extend([node(link.from, Some(link.length)), node(link.to, None)]);
         }
+    }
+
+    /// The shortest path with the prescribed senses.
+    fn solve(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
+        self.links.clear();
+        for _ in 0..MOST_SWEEPS {
+            self.contacts.clear();
+            self.contacts.resize(surfaces.len(), Contact::Free);
+            let (changed, moved) = self.sweep(ends, part, surfaces);
+            if !changed && moved <= ENDED_M {
+                return;
+            }
+            if !changed {
+                self.newton(ends, surfaces);
+            }
+        }
+    }
+
+    /// Tries all combinations of sides of the cylinders whose side is in doubt, and keeps the shortest path.
+    fn try_other_sides(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
+        self.doubtful.clear();
+        for (index, surface) in surfaces.iter().enumerate() {
+            if surface.covers(part) && surface.has_two_sides() && self.largest_turn(ends, index, surface) > DOUBTFUL_RAD
+            {
+                self.doubtful.push(index);
+            }
+        }
+        self.doubtful.truncate(MOST_DOUBTFUL);
+        let mut least = self.merit(ends);
+        self.best_links.clone_from(&self.links);
+        self.best_contacts.clone_from(&self.contacts);
+        for sides in 0..1_usize << self.doubtful.len() {
+            if self.doubtful.is_empty() {
+                return;
+            }
+            for (bit, index) in self.doubtful.iter().enumerate() {
+                self.senses[*index] = Some(if sides >> bit & 1 == 0 { 1.0 } else { -1.0 });
+            }
+            self.solve(ends, part, surfaces);
+            let merit = self.merit(ends);
+            if merit.0 < least.0 || merit.0 == least.0 && merit.1 < least.1 - SHORTER_M {
+                least = merit;
+                self.best_links.clone_from(&self.links);
+                self.best_contacts.clone_from(&self.contacts);
+            }
+        }
+        std::mem::swap(&mut self.links, &mut self.best_links);
+        std::mem::swap(&mut self.contacts, &mut self.best_contacts);
+    }
+
+    /// The largest angle around a cylinder by which the path turns between two other nodes [rad].
+    fn largest_turn(&self, ends: [Vec3; 2], index: usize, surface: &PathSurface) -> f64 {
+        let mut largest = 0.0_f64;
+        let mut from = ends[0];
+        let tos = self.links.iter().filter(|link| link.surface != index).map(|link| [link.from, link.to]);
+        for [to, next] in tos.chain([[ends[1]; 2]]) {
+            largest = largest.max(surface.inside(from).xy().angle(&surface.inside(to).xy()));
+            from = next;
+        }
+        largest
+    }
+
+    /// Number of surfaces that are passed over, and length between both ends [m]: less is better.
+    fn merit(&self, ends: [Vec3; 2]) -> (usize, f64) {
+        let mut from = ends[0];
+        let mut length = 0.0;
+        for link in &self.links {
+            length += (link.from - from).norm() + link.length;
+            from = link.to;
+        }
+        let passed_over = self.contacts.iter().filter(|contact| **contact != Contact::Free).count();
+        (passed_over, length + (ends[1] - from).norm())
     }
 
     /// Puts every surface's arc anew; returns whether surfaces or their order changed, and the largest move [m].
@@ -97,8 +176,8 @@ impl Chain {
         (changed, moved)
     }
 
-    /// The arc on a surface and its place among the other arcs: in the part that runs deepest through the surface, else
-    /// in the part that becomes least longer.
+    /// The arc on a surface and its place among the other arcs: in the straight part that runs deepest through the
+    /// surface, or passes it most closely.
     fn best(
         &self,
         ends: [Vec3; 2],
@@ -106,30 +185,25 @@ impl Chain {
         surface: &PathSurface,
         contact: &mut Contact,
     ) -> Option<(usize, Link)> {
-        let mut best: Option<(bool, f64, usize, Link)> = None;
+        let mut deepest: Option<(f64, usize)> = None;
         for at in 0..=self.links.len() {
-            let [from, to] = self.neighbours(ends, at);
-            match surface.shortest(from, to) {
-                Passage::Straight(found) => super::note(contact, found),
-                Passage::Over(arc) => {
-                    let link = surface.link(index, &arc);
-                    let longer = (link.from - from).norm() + arc.length + (to - link.to).norm() - (to - from).norm();
-                    let better = best.as_ref().is_none_or(|(crosses, least, ..)| match (crosses, arc.crosses) {
-                        (true, true) => longer > *least,
-                        (false, false) => longer < *least,
-                        (true, false) => false,
-                        (false, true) => true,
-                    });
-                    if better {
-                        best = Some((arc.crosses, longer, at, link));
-                    }
-                }
+            match surface.depth(self.neighbours(ends, at)) {
+                None => *contact = Contact::EndInside,
+                Some(depth) if deepest.is_none_or(|(most, _)| depth > most) => deepest = Some((depth, at)),
+                Some(_) => {}
             }
         }
-        best.map(|(.., at, link)| (at, link))
+        let (_, at) = deepest?;
+        match surface.shortest_in_sense(self.neighbours(ends, at), self.senses[index]) {
+            Passage::Straight(found) => {
+                super::note(contact, found);
+                None
+            }
+            Passage::Over(arc) => Some((at, surface.link(index, &arc))),
+        }
     }
 
-    /// The places between which the arc at this position of the chain would lie.
+    /// The places between which an arc put in at this position of the chain would lie.
     fn neighbours(&self, ends: [Vec3; 2], at: usize) -> [Vec3; 2] {
         let from = at.checked_sub(1).and_then(|before| self.links.get(before)).map_or(ends[0], |link| link.to);
         [from, self.links.get(at).map_or(ends[1], |link| link.from)]
@@ -168,8 +242,11 @@ impl Chain {
         self.right.resize(size, 0.0);
         (0..size).for_each(|k| self.matrix.row_mut(k)[k] = 1.0);
         for at in 0..self.links.len() {
-            let (link, neighbours) = (self.links[at], self.neighbours(ends, at));
-            let Some((arc, slopes)) = surfaces[link.surface].tangents(neighbours) else { return false };
+            let link = self.links[at];
+            let neighbours = [self.neighbours(ends, at)[0], self.neighbours(ends, at + 1)[1]];
+            let Some((arc, slopes)) = surfaces[link.surface].tangents(neighbours, self.senses[link.surface]) else {
+                return false;
+            };
             // Rows of q before this arc and of p after it; columns of p before and of q after.
             let before = at.checked_sub(1).map(|gap| 6 * gap);
             let after = (at + 1 < self.links.len()).then_some(6 * at);
@@ -208,8 +285,8 @@ impl PathSurface {
     }
 
     /// Tangent points in the world and their derivatives by both neighbours; `None` where the path is straight.
-    fn tangents(&self, neighbours: [Vec3; 2]) -> Option<(Arc, Derivatives)> {
-        let Passage::Over(arc) = self.shortest(neighbours[0], neighbours[1]) else { return None };
+    fn tangents(&self, neighbours: [Vec3; 2], sense: Option<f64>) -> Option<(Arc, Derivatives)> {
+        let Passage::Over(arc) = self.shortest_in_sense(neighbours, sense) else { return None };
         let slopes = Derivatives::of(self.shape, neighbours.map(|place| self.inside(place)), &arc)?;
         let turned = |block: &Mat3| self.pose.rotation * block * self.pose.rotation.transpose();
         let slopes = Derivatives { first: slopes.first.map(|b| turned(&b)), last: slopes.last.map(|b| turned(&b)) };

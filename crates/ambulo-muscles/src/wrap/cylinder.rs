@@ -21,10 +21,25 @@ use ambulo_body::spatial::Vec3;
 use std::f64::consts::TAU;
 
 /// The shortest path from `a` to `b` in the axes of a cylinder of this radius and length.
-pub(super) fn shortest([a, b]: [Vec3; 2], [radius, length]: [f64; 2], quadrant: Option<Quadrant>) -> Passage {
+pub(super) fn shortest(ends: [Vec3; 2], size: [f64; 2], quadrant: Option<Quadrant>) -> Passage {
+    by_turn(ends, size, turn(ends[0], ends[1], quadrant))
+}
+
+/// The shortest path that turns in this sense, 1 positively about z or -1.
+pub(super) fn shortest_in_sense(ends: [Vec3; 2], size: [f64; 2], sense: f64) -> Passage {
+    let turn = turn(ends[0], ends[1], None);
+    by_turn(ends, size, if turn * sense < 0.0 { turn + sense * TAU } else { turn })
+}
+
+/// Angle of the arc that the straight line would need, negative if it passes the cylinder [rad]; `None` with an end inside.
+pub(super) fn depth([a, b]: [Vec3; 2], radius: f64) -> Option<f64> {
+    let covered = End::of(a, radius)?.angle + End::of(b, radius)?.angle;
+    Some(turn(a, b, None).abs() - covered)
+}
+
+fn by_turn([a, b]: [Vec3; 2], [radius, length]: [f64; 2], turn: f64) -> Passage {
     let [from, to] = [a, b].map(|place| End::of(place, radius));
     let (Some(from), Some(to)) = (from, to) else { return Passage::Straight(Contact::EndInside) };
-    let turn = turn(a, b, quadrant);
     let angle = turn.abs() - from.angle - to.angle;
     // A turn that is not a number (no point is at the axis, but a radius may be zero) is no arc either.
     if !(angle > 0.0) {
@@ -44,7 +59,6 @@ pub(super) fn shortest([a, b]: [Vec3; 2], [radius, length]: [f64; 2], quadrant: 
         length: radius * angle * hypot(1.0, rise),
         angle,
         sense,
-        crosses: turn.abs().min(TAU - turn.abs()) > from.angle + to.angle,
     })
 }
 

@@ -196,6 +196,31 @@ impl PathSurface {
         }
     }
 
+    /// The shortest way in this sense of turning, which only a cylinder has.
+    fn shortest_in_sense(&self, [from, to]: [Vec3; 2], sense: Option<f64>) -> Passage {
+        match (self.shape, sense) {
+            (WrapShape::Cylinder { radius, length }, Some(sense)) => {
+                cylinder::shortest_in_sense([self.inside(from), self.inside(to)], [radius, length], sense)
+            }
+            _ => self.shortest(from, to),
+        }
+    }
+
+    /// Angle of the arc that a straight part would need, negative if it passes the surface [rad]; `None` if an end lies
+    /// inside.
+    fn depth(&self, ends: [Vec3; 2]) -> Option<f64> {
+        let ends = ends.map(|place| self.inside(place));
+        match self.shape {
+            WrapShape::Cylinder { radius, .. } => cylinder::depth(ends, radius),
+            WrapShape::Sphere { radius } => sphere::depth(ends, radius),
+        }
+    }
+
+    /// Whether the path may pass on either side.
+    fn has_two_sides(&self) -> bool {
+        self.quadrant.is_none() && matches!(self.shape, WrapShape::Cylinder { .. })
+    }
+
     /// A place of the world in the axes of the surface.
     fn inside(&self, place: Vec3) -> Vec3 {
         self.pose.rotation.tr_mul(&(place - self.pose.translation))
@@ -243,8 +268,6 @@ struct Arc {
     angle: f64,
     /// 1 or -1. Cylinder: turning about z positively or not. Sphere: the nearer or the other way round.
     sense: f64,
-    /// Whether the straight line would run through the surface; a one-sided surface is also in the way of lines behind.
-    crosses: bool,
 }
 
 /// How a path passes a surface.

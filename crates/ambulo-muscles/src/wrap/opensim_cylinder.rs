@@ -64,7 +64,7 @@ pub(super) fn verdict(
         slide([a, b], &mut touches, radius, course.long);
     }
     let Helix { angle, sense, length, .. } = Helix::of(touches, radius, course.long);
-    let arc = Arc { from: touches[0], to: touches[1], length, angle, sense, crosses };
+    let arc = Arc { from: touches[0], to: touches[1], length, angle, sense };
     if course.mandatory { Verdict::Mandatory(arc) } else { Verdict::Possible(arc) }
 }
 

@@ -42,7 +42,17 @@ pub(super) fn shortest([a, b]: [Vec3; 2], radius: f64, quadrant: Option<Quadrant
         true => (-1.0, TAU - between - covered),
     };
     let [from, to] = touch(sense);
-    Passage::Over(Arc { from, to, length: radius * angle, angle, sense, crosses: true })
+    Passage::Over(Arc { from, to, length: radius * angle, angle, sense })
+}
+
+/// Angle of the arc that the straight line would need, negative if it passes the sphere [rad]; `None` with an end inside.
+pub(super) fn depth([a, b]: [Vec3; 2], radius: f64) -> Option<f64> {
+    let covered = |place: Vec3| {
+        let distance = place.norm();
+        let tangent = ((distance - radius) * (distance + radius)).sqrt();
+        (distance >= radius && distance > 0.0).then(|| atan2(tangent, radius))
+    };
+    Some(atan2(a.cross(&b).norm(), a.dot(&b)) - covered(a)? - covered(b)?)
 }
 
 /// Unit normal of the plane of the path; if both points and the centre lie on a line, one of its many planes.
