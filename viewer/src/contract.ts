@@ -265,7 +265,25 @@ red: Array<RedSpan>,
 /**
  * Why there is nothing to be seen, instead of an empty box.
  */
-empty: string | null, };
+empty: string | null, 
+/**
+ * What belongs to the activation of muscles; only panels of muscles have it.
+ */
+activity?: Activity, };
+
+export type Activity = { 
+/**
+ * Envelope of the electromyogram, mean over the cycles of a side.
+ */
+measured: Array<MeanCurve>, 
+/**
+ * Times in which the muscles of healthy adults are usually active [% of the cycle]; empty if unknown.
+ */
+usual: Array<[number, number]>, 
+/**
+ * Agreement of activation and electromyogram, in a sentence.
+ */
+agreement: string | null, };
 
 export type CycleCurve = { 
 /**
@@ -281,9 +299,9 @@ number: number,
  */
 values: Series, 
 /**
- * Where they stand in the files.
+ * Where they stand in the files; nothing for a value of several columns.
  */
-origin: Origin, };
+origin: Origin | null, };
 
 export type MeanCurve = { 
 /**
@@ -561,6 +579,10 @@ torques: Array<ViewTorque>,
  */
 contacts: Array<ViewContact>, 
 /**
+ * Muscles, if the run computed them.
+ */
+muscles?: Array<ViewMuscle>, 
+/**
  * Height of the floor [m]; a grid is drawn there.
  */
 floor_m: number, 
@@ -700,6 +722,34 @@ place: [number, number, number],
  * Whose side.
  */
 side: PageSide | null, };
+
+export type ViewMuscle = { 
+/**
+ * Its name in the model: `soleus_r`.
+ */
+name: string, 
+/**
+ * Whose side.
+ */
+side: PageSide | null, 
+/**
+ * Points of its path from origin to insertion.
+ */
+points: Array<ViewPathPoint>, 
+/**
+ * Its activation, 0 to 1.
+ */
+activation: Series, };
+
+export type ViewPathPoint = { 
+/**
+ * Place in `bodies`.
+ */
+body: number, 
+/**
+ * In this body's axes [m].
+ */
+place: [number, number, number], };
 
 export type LivePage = { 
 /**

@@ -47,6 +47,12 @@ export interface Shade {
   readonly to: number;
 }
 
+/** A time in which muscles are usually active [% of the cycle]. */
+export interface Usual {
+  readonly from: number;
+  readonly to: number;
+}
+
 /** Everything drawn in a panel, in the panel's units, back to front. */
 export interface Drawing {
   readonly axis: Axis;
@@ -56,6 +62,7 @@ export interface Drawing {
   readonly shades: readonly Shade[];
   readonly lines: readonly Line[];
   readonly marks: readonly Mark[];
+  readonly usual: readonly Usual[];
 }
 
 /** One session's data for a panel. */
@@ -103,7 +110,14 @@ export function drawing(sources: readonly PanelSource[], numbers: Numbers, choic
     shades: parts.flatMap((one) => one.shades),
     lines: inOrder(lines, (line) => ORDER.indexOf(line.role)),
     marks: parts.flatMap((one) => one.marks).filter(shown),
+    usual: axis === "cycle" ? usualTimes(sources) : [],
   };
+}
+
+/** Usual times of activity; they are the same in every session. */
+function usualTimes(sources: readonly PanelSource[]): Usual[] {
+  const known = sources.map(({ panel }) => panel.activity?.usual ?? []).find((usual) => usual.length > 0);
+  return (known ?? []).map(([from, to]) => ({ from, to }));
 }
 
 /** Back to front. */
@@ -138,6 +152,9 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
   if (all.length === 1 || panel.means.length === 0) {
     lines.push(...cycleLines(source, numbers));
   }
+  if (all.length === 1) {
+    lines.push(...measuredLines(source, numbers));
+  }
   for (const mean of panel.means) {
     const name = `${sideName(mean.side)}, mean of ${mean.cycles}`;
     const y = numbers.read(mean.values);
@@ -157,6 +174,21 @@ function cyclePart(source: PanelSource, numbers: Numbers, all: readonly PanelSou
     }
   }
   return { lines, areas: index === firstWithBand(all) ? bandOf(panel, numbers) : [], marks, shades: [] };
+}
+
+/** Means of what was measured next to a computed curve. */
+function measuredLines({ panel, index }: PanelSource, numbers: Numbers): Line[] {
+  return (panel.activity?.measured ?? []).map((mean) => ({
+    name: `${sideName(mean.side)}, electromyogram, mean of ${mean.cycles}`,
+    role: "measured",
+    side: mean.side,
+    session: index,
+    cycle: null,
+    variant: 0,
+    x: PERCENT,
+    y: numbers.read(mean.values),
+    origin: null,
+  }));
 }
 
 function cycleLines(source: PanelSource, numbers: Numbers): Line[] {

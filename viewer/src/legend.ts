@@ -54,7 +54,20 @@ function sideWords(sides: readonly PageSide[]): string {
 function overCycle({ page }: Context, panels: Panels): (Node | string)[][] {
   const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
   const band = panels.citations().length > 0 ? [[areaSample(colour("band"), 1), "normative, mean ± 1 SD"]] : [];
-  return [[curves], ...band, ["ticks below: foot off"]];
+  const activities = page.sessions.flatMap((session) =>
+    session.groups.flatMap((group) => group.panels.flatMap((panel) => panel.activity ?? [])),
+  );
+  const measured = page.sessions.length === 1 && activities.some((activity) => activity.measured.length > 0);
+  const usual = activities.some((activity) => activity.usual.length > 0);
+  return [
+    [curves],
+    ...band,
+    ...(measured
+      ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured (electromyogram)"]]
+      : []),
+    ...(usual ? [[areaSample(colour("quiet"), 1), "bars above: usually active"]] : []),
+    ["ticks below: foot off"],
+  ];
 }
 
 function overTime({ page }: Context): (Node | string)[][] {

@@ -46,7 +46,7 @@ export class PanelView {
     this.#source = element("p", { class: "source" });
     this.figure = element("figure", { class: "panel", id: `panel-${id}` }, this.#head());
     if (this.drawable) {
-      this.figure.append(this.#plot, this.#absent, this.#paper, this.#key, this.#source);
+      this.figure.append(this.#plot, this.#absent, this.#paper, this.#key, this.#source, ...agreements(sources));
       this.#fillWords(this.#drawing);
     } else {
       const why = sources.find(({ panel }) => panel.empty !== null)?.panel.empty;
@@ -263,6 +263,15 @@ export class PanelView {
 /** Key of a main line: side and number. */
 function keyOf(line: { readonly side: PageSide | null; readonly variant: number }): string {
   return `${line.side}${line.variant}`;
+}
+
+/** How far activation and electromyogram agree; in a comparison with the session's name. */
+function agreements(sources: readonly PanelSource[]): HTMLElement[] {
+  return sources.flatMap(({ session, panel }) => {
+    const words = panel.activity?.agreement;
+    const name = sources.length > 1 ? `${session.name}: ` : "";
+    return words ? [element("p", { class: "agreement" }, name + words)] : [];
+  });
 }
 
 function extremes(values: Float64Array, digits: number): string {

@@ -6,6 +6,8 @@ import { colour, STYLE } from "./style";
 
 /** Size of the axes [CSS px]. */
 export const ROOM = { left: 32, bottom: 17, top: 5, right: 13 } as const;
+/** Height of the bars of usual activity at the upper edge [CSS px]. */
+export const BAR = 4;
 /** Height of the ticks for foot strikes and foot offs [CSS px]. */
 export const MARK = 9;
 
@@ -180,7 +182,7 @@ export function runs(area: { readonly low: Float64Array; readonly high: Float64A
   return found;
 }
 
-/** Draws the zero line, the axes and the ticks for foot strikes and foot offs. */
+/** Draws the zero line, the axes, the bars of usual activity and the ticks for foot strikes and foot offs. */
 function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   const { ctx } = chart;
   const { left, top, width, height } = chart.bbox;
@@ -197,6 +199,11 @@ function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   strokeLine(ctx, left, top, left, top + height);
   strokeLine(ctx, left, top + height, left + width, top + height);
   ctx.lineWidth = pixels(STYLE.lines_pt.tick) * ratio;
+  ctx.fillStyle = colour("quiet");
+  for (const { from, to } of drawing.usual) {
+    const x = chart.valToPos(from, "x", true);
+    ctx.fillRect(x, top, chart.valToPos(to, "x", true) - x, BAR * ratio);
+  }
   for (const mark of drawing.marks) {
     const look = sideLook(mark, scheme);
     const x = chart.valToPos(mark.x, "x", true);

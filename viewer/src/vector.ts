@@ -1,7 +1,7 @@
 import type { Area, Drawing, Line } from "./drawing";
 import { svgElement } from "./element";
 import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
-import { MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
+import { BAR, MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
 import { colour, STYLE } from "./style";
 
 /** Positions of values in a picture [CSS px]. */
@@ -34,7 +34,8 @@ export function vector(drawing: Drawing, scheme: Scheme, size: Size): SVGSVGElem
   });
   picture.append(...drawing.areas.map((area) => surface(area, frame, scheme)));
   picture.append(...shades(drawing, frame), ...grid(drawing, frame), ...axes(frame));
-  picture.append(...drawing.lines.map((line) => curve(line, frame, scheme)), ...marks(drawing, frame, scheme));
+  picture.append(...drawing.lines.map((line) => curve(line, frame, scheme)));
+  picture.append(...bars(drawing, frame), ...marks(drawing, frame, scheme));
   return picture;
 }
 
@@ -119,6 +120,18 @@ function axes(frame: Frame): SVGElement[] {
     straight(frame.left, frame.top, frame.left, frame.bottom, ink, width),
     straight(frame.left, frame.bottom, frame.right, frame.bottom, ink, width),
   ];
+}
+
+function bars(drawing: Drawing, frame: Frame): SVGElement[] {
+  return drawing.usual.map(({ from, to }) =>
+    svgElement("rect", {
+      x: short(frame.x(from)),
+      y: frame.top,
+      width: short(frame.x(to) - frame.x(from)),
+      height: BAR,
+      fill: colour("quiet"),
+    }),
+  );
 }
 
 function marks(drawing: Drawing, frame: Frame, scheme: Scheme): SVGElement[] {

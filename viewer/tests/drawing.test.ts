@@ -215,3 +215,49 @@ test("several lines without a side have numbers and one reading each", async () 
     [main[0]?.y[7]?.toFixed(1), "7.0"],
   );
 });
+
+/** A panel with electromyograms of the right side and usual times of activity. */
+async function active(...variants: Variant[]): Promise<{ sources: PanelSource[]; numbers: Numbers }> {
+  const block = new Block();
+  const page = samplePage(block, variants);
+  const values = block.add(Array.from({ length: 101 }, (_, i) => i / 100));
+  const measured = [{ side: "r" as const, cycles: 3, values, sd: null, foot_off_percent: null }];
+  const sources = sourcesOf(page, "knee_flexion").map((one) => ({
+    ...one,
+    panel: {
+      ...one.panel,
+      activity: {
+        measured,
+        usual: [
+          [0, 17],
+          [92, 100],
+        ] as [number, number][],
+        agreement: "r",
+      },
+    },
+  }));
+  return { sources, numbers: await Numbers.decode(block.encode()) };
+}
+
+test("electromyograms and usual times are drawn over the cycle of one session", async () => {
+  const { sources, numbers } = await active(WHOLE);
+  const now = drawing(sources, numbers, BOTH);
+  const measured = now?.lines.filter((line) => line.role === "measured") ?? [];
+  assert.deepEqual(
+    measured.map(({ name, side, y }) => [name, side, Math.round(100 * (y[50] ?? 0))]),
+    [["right, electromyogram, mean of 3", "r", 50]],
+  );
+  assert.deepEqual(now?.usual, [
+    { from: 0, to: 17 },
+    { from: 92, to: 100 },
+  ]);
+  assert.equal(count(drawing(sources, numbers, { axis: "cycle", sides: ["l"] }), "measured"), 0);
+  assert.deepEqual(drawing(sources, numbers, { ...BOTH, axis: "time" })?.usual, []);
+});
+
+test("a comparison has usual times but no electromyograms over the cycle", async () => {
+  const { sources, numbers } = await active(WHOLE, { ...WHOLE, name: "two", scale: 1.2 });
+  const now = drawing(sources, numbers, BOTH);
+  assert.equal(count(now, "measured"), 0);
+  assert.equal(now?.usual.length, 2);
+});

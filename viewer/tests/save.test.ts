@@ -22,6 +22,7 @@ const drawn = (...lines: Line[]): Drawing => ({
   areas: [],
   shades: [],
   marks: [],
+  usual: [],
   lines,
 });
 

@@ -1,13 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { type Material, type Mesh, Quaternion, Vector3 } from "three";
+import { Color, type InstancedMesh, type Material, Matrix4, type Mesh, Quaternion, Vector3 } from "three";
 import type { PageSide, View, ViewBody, ViewShape } from "../src/contract";
 import { arrowParts, arrowScale, dashParts } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
 import { extentOf } from "../src/view3d/extent";
+import { Figure } from "../src/view3d/figure";
 import { peakOf } from "../src/view3d/forces";
 import { Motion } from "../src/view3d/motion";
+import { activationColor, Muscles, thickness } from "../src/view3d/muscles";
 import { Obstacles } from "../src/view3d/obstacles";
+import { palette } from "../src/view3d/palette";
 import { filled, Path, smoothed } from "../src/view3d/path";
 import { type Gait, gaitOf, matchingTime } from "../src/view3d/phase";
 import { marks } from "../src/view3d/ruler";
@@ -263,4 +266,55 @@ test("only existing parts can be shown or hidden", () => {
   const words = (view: View, ghosts: boolean) => togglesOf(view, ghosts).map(({ word }) => word);
   assert.deepEqual(words(session.view, false), ["Forces", "Moments", "Soles"]);
   assert.deepEqual(words({ ...session.view, forces: [], torques: [], contacts: [] }, true), ["Ghost"]);
+  const muscles = [{ name: "soleus_r", side: "r" as const, points: [], activation: new SampleNumbers().add([0]) }];
+  assert.deepEqual(words({ ...session.view, muscles }, false), ["Forces", "Moments", "Soles", "Muscles"]);
+});
+
+test("a muscle is a line between the points of its bodies, coloured and thicker when active", () => {
+  const numbers = new SampleNumbers();
+  const of = (...values: number[]) => numbers.add(values);
+  const body = (x: number, y: number): ViewBody => ({
+    name: "b",
+    side: null,
+    shapes: [],
+    position: [of(x, x), of(y, y), of(0, 0)],
+    rotation: [of(0, 0), of(0, 0), of(Math.SQRT1_2, Math.SQRT1_2), of(Math.SQRT1_2, Math.SQRT1_2)],
+  });
+  const view = {
+    bodies: [body(0, 1), body(0, 0)],
+    // The bodies are turned by a quarter about z: x of the body is y of the world.
+    muscles: [
+      {
+        name: "soleus_r",
+        side: "r",
+        points: [
+          { body: 0, place: [0.1, 0, 0] },
+          { body: 1, place: [0, 0, 0] },
+        ],
+        activation: of(0, 1),
+      },
+    ],
+  } as unknown as View;
+  const figure = new Figure(view, numbers);
+  const muscles = new Muscles(view, numbers, 2);
+  const colors = palette(false, false);
+  muscles.recolor(colors);
+  for (const [frame, activation] of [
+    [0, 0],
+    [0.5, 0.5],
+    [1, 1],
+  ] as const) {
+    figure.pose(frame);
+    muscles.pose(frame, figure);
+    const lines = muscles.group.children[0] as InstancedMesh;
+    const [matrix, color] = [new Matrix4(), new Color()];
+    lines.getMatrixAt(0, matrix);
+    lines.getColorAt(0, color);
+    const ends = [new Vector3(0, 0, 0), new Vector3(0, 1, 0)].map((end) => end.applyMatrix4(matrix));
+    close(ends[0]?.y ?? NONE, 1.1, 1e-6);
+    close(ends[1]?.y ?? NONE, 0, 1e-6);
+    close(new Vector3().setFromMatrixScale(matrix).x, 2 * thickness(activation), 1e-6);
+    close(color.r, activationColor(colors, activation, new Color()).r, 1e-6);
+  }
+  assert.ok(thickness(1) > 2 * thickness(0) && thickness(NONE) === thickness(0) && thickness(7) === thickness(1));
 });

@@ -46,6 +46,9 @@ fn info_describes_a_recording() {
     );
     assert_eq!((&json["rate_hz"], &json["analog_rate_hz"]), (&100.0.into(), &1000.0.into()));
     assert_eq!(json["marker_set"]["sets"], serde_json::json!(["plug-in-gait"]));
+    let [used, unused] = ["used", "unused"].map(|key| json["markers_used"][key].as_array().unwrap().len());
+    assert_eq!(used + unused, 46, "{json}");
+    assert!(used >= 40 && text.contains(&format!("markers used: {used} of 46 markers by the built-in body")), "{text}");
     assert!((json["mass_kg"].as_f64().unwrap() - 75.0).abs() < 1e-6, "{json}");
     let plates = json["plates"].as_array().unwrap();
     // Three cycles and a little more: a plate for each of nine contacts, the highest peaks 1.14 body weights.

@@ -108,8 +108,8 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
     bench.write("subject.b3d", subject(&bench).write().unwrap());
     let listed = bench.run(&["info", "subject.b3d"]).done().stdout;
     for line in [
-        "1 walk/1: 200 frames, 1.990 s at 100 Hz, over ground, 1 passes, ground force in 200 frames",
-        "2 no plates: 200 frames, 1.990 s at 100 Hz, over ground, 1 passes, ground force in 0 frames (no force plate \
+        "1 walk/1: 200 frames, 1.990 s at 100 Hz, over ground, 1 pass, ground force in 200 frames",
+        "2 no plates: 200 frames, 1.990 s at 100 Hz, over ground, 1 pass, ground force in 0 frames (no force plate \
          200)",
     ] {
         assert!(listed.contains(line), "{listed}");

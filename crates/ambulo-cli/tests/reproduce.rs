@@ -52,7 +52,11 @@ fn the_paper_is_recomputed_into_the_documented_files() {
     }
     // Two modes.
     let tables = [
-        ("muscles.csv", "mode,gait,joint,phase,group,action,share,moment_nm_kg,power_w_kg,work_j_kg", 2 * 4 * 3 * 7),
+        (
+            "paper_muscles.csv",
+            "mode,gait,joint,phase,group,action,share,moment_nm_kg,power_w_kg,work_j_kg",
+            2 * 4 * 3 * 7,
+        ),
         ("torques.csv", "mode,gait,coordinate,cycle_s,harmonic,cosine_nm,sine_nm,r_squared", 2 * 4 * 6 * 7),
     ];
     for (name, columns, count) in tables {

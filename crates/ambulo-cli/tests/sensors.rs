@@ -68,7 +68,8 @@ fn sensors_turn_a_model_or_the_built_in_body() {
     let bench = demo();
     let model = ["forces", "walking.sto", "--static", "standing.sto", "--model", "demo/input/figure.osim"];
     let run = bench.run(&[&model[..], &["-o", "model", "--verbose"]].concat());
-    for words in ["12 sensors turn the body", "by the bending of the knees", "sensors do not show where the person is"]
+    for words in
+        ["the body follows 12 sensors", "by the bending of the knees", "sensors do not show where the person is"]
     {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }

@@ -20,18 +20,19 @@ fn old(forces: &str) -> String {
 fn new(forces: &str) -> String {
     format!(
         "<OpenSimDocument Version=\"40000\"><Model name=\"m\">\n<Ground name=\"ground\"><WrapObjectSet><objects>\
-         <WrapSphere name=\"ball\"><radius>0.2</radius><translation>1 2 3</translation><quadrant>+y</quadrant></WrapSphere>\
-         </objects></WrapObjectSet></Ground>\n<BodySet><objects><Body name=\"a\"><mass>1</mass></Body></objects></BodySet>\n\
+         <WrapSphere name=\"ball\"><radius>0.2</radius><translation>1 2 3</translation><quadrant>+y</quadrant>\
+         </WrapSphere></objects></WrapObjectSet></Ground>\n\
+         <BodySet><objects><Body name=\"a\"><mass>1</mass></Body></objects></BodySet>\n\
          <JointSet><objects><PinJoint name=\"j\"><socket_parent_frame>/ground</socket_parent_frame>\
-         <socket_child_frame>/bodyset/a</socket_child_frame><coordinates><Coordinate name=\"q\"/></coordinates></PinJoint>\
-         </objects></JointSet><ForceSet><objects>\n{forces}\n</objects></ForceSet></Model></OpenSimDocument>"
+         <socket_child_frame>/bodyset/a</socket_child_frame><coordinates><Coordinate name=\"q\"/></coordinates>\
+         </PinJoint></objects></JointSet><ForceSet><objects>\n{forces}\n</objects></ForceSet></Model></OpenSimDocument>"
     )
 }
 
 fn muscle(points: &str, more: &str) -> String {
     format!(
-        "<Thelen2003Muscle name=\"m1\">\n{more}<GeometryPath><PathPointSet><objects>\n{points}\n</objects></PathPointSet>\
-         <PathWrapSet><objects>\n<PathWrap><wrap_object>ball</wrap_object><range>1 -1</range></PathWrap></objects>\
+        "<Thelen2003Muscle name=\"m1\">\n{more}<GeometryPath><PathPointSet><objects>\n{points}\n</objects>\
+         </PathPointSet><PathWrapSet><objects>\n<PathWrap><wrap_object>ball</wrap_object><range>1 -1</range></PathWrap></objects>\
          </PathWrapSet></GeometryPath></Thelen2003Muscle>"
     )
 }

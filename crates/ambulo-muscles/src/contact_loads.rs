@@ -39,7 +39,8 @@ pub struct JointLoad {
     /// Force [N] and moment about the joint centre [N.m] of the parent on the child in the axes of the child's frame, as
     /// OpenSim's JointReaction gives them; one per frame.
     pub in_child: Vec<Wrench>,
-    /// The same load on the distal segment in the axes of the joint coordinate system: components forward, up, right.
+    /// The same load on the distal segment in axes of the joint: forward (floating axis of the joint coordinate system),
+    /// up (long axis of the distal segment), and to the right, perpendicular to both.
     pub in_joint: Vec<Wrench>,
 }
 
@@ -111,7 +112,9 @@ fn joint_load(
         let at = model.leg_joint(joint, side, |body| reader.body_motion(body, frame).pose.rotation)?;
         let reaction = reader.at(at.body, frame).wrench;
         let turned = reader.body_motion(at.body, frame).pose.rotation.transpose();
-        let along = |v: Vec3| Vec3::new(at.axes[0].dot(&v), at.axes[1].dot(&v), at.axes[2].dot(&v)) * at.on_distal;
+        let [forward, up, _] = at.axes;
+        let right = forward.cross(&up);
+        let along = |v: Vec3| Vec3::new(forward.dot(&v), up.dot(&v), right.dot(&v)) * at.on_distal;
         let empty =
             || JointLoad { body: at.body, in_child: Vec::with_capacity(frames), in_joint: Vec::with_capacity(frames) };
         let load = load.get_or_insert_with(empty);

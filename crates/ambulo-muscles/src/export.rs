@@ -16,8 +16,8 @@ use ambulo_formats::osim::{
 
 impl MuscleSet {
     /// Puts the muscles, surfaces and motors into the document of their model, as
-    /// [`to_osim`](ambulo_body::model::to_osim) makes it. Reading it again gives the same set, except that orientations of
-    /// surfaces are written as angles and read back to rounding.
+    /// [`to_osim`](ambulo_body::model::to_osim) makes it. Reading it again gives the same set, except that orientations
+    /// of surfaces are written as angles and read back to rounding.
     pub fn write_into(&self, model: &Model, document: &mut OsimModel) {
         document.muscles = Ok(OsimMuscles {
             muscles: self.muscles.iter().map(|m| muscle(self, model, m)).collect(),

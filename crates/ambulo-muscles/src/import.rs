@@ -31,8 +31,8 @@ pub enum MuscleError {
     File(#[from] ambulo_formats::Error),
     /// A document without a muscle that can be used.
     #[error(
-        "the model `{model}` has {found}; expected at least one Thelen2003Muscle or Millard2012EquilibriumMuscle that is \
-         switched on. hint: export the model with its ForceSet"
+        "the model `{model}` has {found}; expected at least one Thelen2003Muscle or Millard2012EquilibriumMuscle that \
+         is switched on. hint: export the model with its ForceSet"
     )]
     NoMuscles {
         /// The model.
@@ -114,7 +114,7 @@ impl MuscleSet {
         let paths = PathWorkspace::new(model, &set, WrapRule::Exact);
         let moves: Vec<bool> = (0..set.muscles.len()).map(|i| !paths.coordinates(i).is_empty()).collect();
         for (muscle, _) in set.muscles.iter().zip(&moves).filter(|(_, moves)| !**moves) {
-            left_out.add(Code::MusclesNoJoint, "their paths cross no joint that moves", &muscle.name);
+            left_out.add(Code::MusclesNoJoint, "path crosses no joint that moves", &muscle.name);
         }
         let mut keep = moves.into_iter();
         set.muscles.retain(|_| keep.next().unwrap_or(true));
@@ -188,8 +188,8 @@ impl LeftOut {
     fn report(self, findings: &mut Findings) {
         for ((code, reason), names) in self.names {
             let message = match &names[..] {
-                [one] => format!("1 muscle is left out, because {reason}: {one}"),
-                many => format!("{} muscles are left out, because {reason}: {}", many.len(), many.join(", ")),
+                [one] => format!("1 muscle is left out ({reason}): {one}"),
+                many => format!("{} muscles are left out ({reason}): {}", many.len(), many.join(", ")),
             };
             findings.report(code, message);
         }
@@ -248,7 +248,7 @@ impl<'a> Names<'a> {
     fn muscle(&self, muscle: &OsimMuscle, left_out: &mut LeftOut) -> Result<Option<Muscle>, MuscleError> {
         let OsimMuscle { name, line, .. } = muscle;
         if !muscle.applies_force {
-            left_out.add(Code::MusclesOff, "they are switched off in the model", name);
+            left_out.add(Code::MusclesOff, "switched off in the model", name);
             return Ok(None);
         }
         let parameters = match &muscle.kind {
@@ -263,14 +263,14 @@ impl<'a> Names<'a> {
             if let Err(kind) =
                 self.wraps.get(wrap.object.as_str()).ok_or_else(|| owner.unknown("wrap object", &wrap.object))?
             {
-                let reason = format!("the {kind} `{}`, over which they wrap, is not supported", wrap.object);
+                let reason = format!("path over the {kind} `{}`, which is not supported", wrap.object);
                 left_out.add(Code::MusclesUnsupported, reason, name);
                 return Ok(None);
             }
         }
         check(owner, parameters)?;
         if parameters.max_isometric_force < f64::MIN_POSITIVE {
-            left_out.add(Code::MusclesNoStrength, "their greatest isometric force is zero", name);
+            left_out.add(Code::MusclesNoStrength, "greatest isometric force of zero", name);
             return Ok(None);
         }
         let path = self.path(owner, &parameters.path)?;

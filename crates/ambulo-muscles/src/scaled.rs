@@ -1,18 +1,18 @@
 //! Scales muscles with the bodies of their model, as OpenSim does.
 //!
 //! With S = diag(factors of the body):
-//! - points of paths and origins of surfaces on the body: position S p; functions of moving points: each component by its
-//!   factor;
-//! - radius of a cylinder with the axes x, y, z: by (|S x| + |S y|)/2, its length by |S z|; radius of a sphere: by the mean
-//!   of the factors;
-//! - optimal fibre length and slack length of the tendon: by the ratio of the lengths of the path in the default posture,
-//!   after and before.
+//! - points of paths and origins of surfaces on the body: position S p; functions of moving points: each component by
+//!   its factor;
+//! - radius of a cylinder with the axes x, y, z: by (|S x| + |S y|)/2, its length by |S z|; radius of a sphere: by the
+//!   mean of the factors;
+//! - optimal fibre length and slack length of the tendon: by the ratio of the lengths of the path in the default
+//!   posture, after and before.
 //!
 //! Strength is kept, as in OpenSim.
 //!
 //! Source: OpenSim 4, WrapCylinder.cpp and WrapSphere.cpp (`extendScale`), MovingPathPoint.cpp (`scale`),
-//! GeometryPath.cpp (`extendPreScale`), the muscles' `extendPostScale`, read. Difference: lengths of paths over surfaces
-//! are exact.
+//! GeometryPath.cpp (`extendPreScale`), the muscles' `extendPostScale`, read. Difference: lengths of paths over
+//! surfaces are exact.
 //! Pinned by: tests/scaling.rs
 
 use crate::import::{MuscleError, default_coordinates};

@@ -63,8 +63,8 @@ pub enum PointPlace {
         /// Least and greatest value.
         range: [f64; 2],
     },
-    /// At a place whose x, y and z in a frame of the body are functions of coordinates [m]. A coordinate counts up to the
-    /// ends of its range; without a coordinate the function is taken at 0.
+    /// At a place whose x, y and z in a frame of the body are functions of coordinates [m]. A coordinate counts up to
+    /// the ends of its range; without a coordinate the function is taken at 0.
     Moving {
         /// `body_from_frame`.
         frame: Pose,
@@ -193,8 +193,8 @@ pub struct ThelenCurves {
     pub straight_from: f64,
 }
 
-/// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties and as OpenSim uses them: for
-/// a damped muscle (`fiber_damping` at least 0.001) or a rigid tendon the least active value and both slopes at the
+/// Parameters of the curves of Millard and others 2013, in the order of OpenSim's properties and as OpenSim uses them:
+/// for a damped muscle (`fiber_damping` at least 0.001) or a rigid tendon the least active value and both slopes at the
 /// greatest velocities are 0, whatever the file has; otherwise they are at least .1 and half the slopes near these
 /// velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -208,8 +208,8 @@ pub struct MillardCurves {
     /// Passive force against length (`FiberForceLengthCurve`): strain at zero force, strain at unit force, stiffness at
     /// low force, stiffness at unit force, curviness. The last three follow from the others where they are not stated.
     pub passive: [Option<f64>; 5],
-    /// Force of the tendon against its length (`TendonForceLengthCurve`): strain at unit force, stiffness at unit force,
-    /// force at the end of the toe, curviness. The last three follow from the first where they are not stated.
+    /// Force of the tendon against its length (`TendonForceLengthCurve`): strain at unit force, stiffness at unit
+    /// force, force at the end of the toe, curviness. The last three follow from the first where they are not stated.
     pub tendon: [Option<f64>; 4],
     /// Damping of the fibre along itself (`fiber_damping`) [greatest isometric forces per greatest velocity].
     pub fiber_damping: f64,

@@ -15,6 +15,9 @@ use crate::settings::{MuscleSettings, SolverError};
 use crate::solver::{FrameValues, MuscleSolver};
 use std::collections::BTreeSet;
 
+/// An unmet force above this share of the required one (or of 1 N.m) is reported.
+const UNMET: f64 = 1e-6;
+
 /// One muscle over a motion; one entry per frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MuscleSeries {
@@ -106,7 +109,8 @@ impl MuscleTrial {
         }
         let Some(convergence) = values.convergence else { return };
         self.iterations.push(convergence.iterations);
-        if !convergence.is_met {
+        let is_unmet = |(unmet, required): (&f64, &f64)| unmet.abs() > UNMET * (1.0 + required.abs());
+        if !convergence.is_met || values.unmet.iter().zip(&values.required).any(is_unmet) {
             self.unmet_frames.push(frame);
         }
     }

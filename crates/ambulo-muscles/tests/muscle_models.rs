@@ -35,8 +35,12 @@ pub(crate) fn read(bytes: &[u8]) -> MuscleModel {
 
 /// The model with this name; `None` without the shared recordings.
 pub(crate) fn load(name: &str) -> Option<MuscleModel> {
-    let others =
-        [("arm26", "muscles/opensim46/models/arm26.osim"), ("ceinms", "muscles/B-ceinms-lowerlimb/gait2392.osim")];
+    let others = [
+        ("arm26", "muscles/opensim46/models/arm26.osim"),
+        ("ceinms", "muscles/B-ceinms-lowerlimb/gait2392.osim"),
+        ("stanford", "muscles/A-stanford-matlabso/Rajagopal_scaled_Sub1_gasAvoid.osim"),
+        ("opencap", "opencap-adult-83kg/LaiArnoldModified2017_poly_withArms_weldHand_scaled.osim"),
+    ];
     let file = MODELS.into_iter().chain(others).find(|(known, _)| *known == name).unwrap().1;
     Some(read(&std::fs::read(shared_data::data()?.join(file)).unwrap()))
 }
@@ -100,4 +104,16 @@ pub(crate) fn postures(name: &str, model: &Model) -> Option<Vec<(String, State)>
     let state =
         |row: &Vec<String>| (table.text(row, "kind").to_owned(), State::new(values(row, "q"), values(row, "u")));
     Some(table.rows.iter().map(state).collect())
+}
+
+/// Random numbers in 0 to 1, from a seed (splitmix64).
+pub(crate) fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(1);
+    move || {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }

@@ -1,7 +1,7 @@
 //! Lengths, speeds and moment arms against OpenSim 4.6, against differences, and as identities.
 
 use crate::muscle_models::{MODELS, MuscleModel, State, Table, load, postures};
-use ambulo_body::model::{Drive, Model};
+use ambulo_body::model::{CoordinateId, Drive, Model};
 use ambulo_muscles::path::PathWorkspace;
 use ambulo_muscles::wrap::WrapRule;
 
@@ -120,5 +120,29 @@ fn moment_arms_are_the_derivative_of_length() {
         }
         println!("{name}: {compared} arms within {worst:.1e} of -dL/dq");
         assert!(compared > 1000 && worst < 1e-9, "{name}: {worst:e} in {compared}");
+    }
+}
+
+#[test]
+fn speeds_are_the_rates_of_length() {
+    for (name, _) in MODELS {
+        let Some(MuscleModel { model, set, .. }) = load(name) else { return };
+        let table = Table::read(&format!("paths_{name}.csv")).unwrap();
+        for (_, rule) in WrapRule::ALL {
+            let mut paths = PathWorkspace::new(&model, &set, rule);
+            let (mut by_arms, mut by_opensim) = (0.0_f64, 0.0_f64);
+            for (p, (_, state)) in postures(name, &model).unwrap().iter().enumerate() {
+                paths.update(state.posture());
+                for i in 0..set.muscles.len() {
+                    let rate = |id: &CoordinateId| state.qd[id.index()];
+                    let sum: f64 = paths.coordinates(i).iter().zip(paths.arms(i)).map(|(id, r)| -r * rate(id)).sum();
+                    by_arms = by_arms.max((paths.speeds()[i] - sum).abs());
+                    let row = &table.rows[p * set.muscles.len() + i];
+                    by_opensim = by_opensim.max((paths.speeds()[i] - table.number(row, "speed_m_s")).abs());
+                }
+            }
+            println!("{name} {rule:?}: {by_arms:.1e} m/s from the arms, {by_opensim:.1e} m/s from OpenSim");
+            assert!(by_arms < 1e-8, "{name} {rule:?}: {by_arms:e}");
+        }
     }
 }

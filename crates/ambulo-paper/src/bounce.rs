@@ -24,8 +24,7 @@ pub(super) const SHOES: Statement = Statement {
             lessens all \
             three in both kinds of shoes",
         reason: "the sentence speaks of bouncing and of flying phases, and not of the force; where soft shoes alone \
-            end \
-            all flight, nothing can be less",
+            end all flight, nothing can be less",
         judge: |paper, corrected| {
             let all = ["flight_percent", "landings_a_step", "largest_force_bw"];
             let better = corrected.is_none_or(|corrected| {

@@ -31,21 +31,18 @@ fn reason(claim: &str) -> &'static str {
     match claim {
         "c1" | "h4" => {
             "the forward speed is that of the stance hip over the foot; it stops, and the torque changes its sign, \
-             only \
-             if the foot strikes while the driven joints are nearly at rest"
+             only if the foot strikes while the driven joints are nearly at rest"
         }
         "c2" => "the torque holds the trunk against forces at the friction limit, and not only changes the speed",
         "c3" => "the period is one second, so the speed is that of the step length",
         "c4" | "g1" | "g3" | "j" => "a foot that touches in mid-swing sticks, stops the leg and throws the figure back",
         "e1" => {
             "each contact of a foot has a peak of its own, so a foot that lifts and touches again has one peak more; \
-             and \
-             a rigid foot is loaded in an instant, where people load it over the first tenth of the stance"
+             and a rigid foot is loaded in an instant, where people load it over the first tenth of the stance"
         }
         "e2" | "e3" | "i" => {
             "an impact cancels the whole velocity of the point, so nothing rebounds; a foot leaves the ground only \
-             where \
-             the driven leg lifts it"
+             where the driven leg lifts it"
         }
         "g2" => {
             "accelerations, and torques with them, are proportional to step length over period squared: at 0.62 s they \

@@ -70,5 +70,7 @@ pub mod internals {
     pub use crate::page::typescript::contract;
     pub use crate::session::quantities::{ANGLES as SESSION_ANGLES, SessionQuantity, all as session_quantities};
     pub use crate::stage::path::BodyPath;
-    pub use crate::stage::{ForceRole, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
+    pub use crate::stage::{
+        ForceRole, Stage, StageBody, StageContact, StageForce, StageMuscle, StagePlate, StageTorque,
+    };
 }

@@ -37,7 +37,7 @@ pub fn reproduction_files(
         files.push(file(format!("figures/{}.csv", figure.name), figure_csv(figure)));
     }
     let modes = || std::iter::once(("paper", paper)).chain(corrected.map(|evidence| ("corrected", evidence)));
-    files.push(file("muscles.csv".into(), muscles_csv(modes())));
+    files.push(file("paper_muscles.csv".into(), muscles_csv(modes())));
     files.push(file("torques.csv".into(), torques_csv(modes())));
     files.push(file("torques.toml".into(), torques_toml(modes())));
     files.push(file("assumptions.csv".into(), assumptions_csv(claims, setting, sensitivities)));

@@ -54,6 +54,7 @@ fn stage() -> Stage {
         }],
         torques: Vec::new(),
         contacts: Vec::new(),
+        muscles: Vec::new(),
         floor_m: 0.0,
         weight_n: 700.0,
         missing: Vec::new(),

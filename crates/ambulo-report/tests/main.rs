@@ -39,6 +39,7 @@ mod recurvatum;
 mod report_page;
 mod report_page_files;
 mod report_page_measured;
+mod report_page_muscles;
 mod report_page_scene;
 mod report_page_trust;
 mod report_page_words;

@@ -7,7 +7,9 @@ use ambulo::ground::BodyForces;
 use ambulo::model::anatomy::Movement;
 use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
+use ambulo::muscles::contact_loads::{JointLoad, LegLoads};
 use ambulo::spatial::Vec3;
+use ambulo::study::MuscleOutcome;
 use ambulo_formats::number::NumberText;
 use ambulo_formats::table::{guarded, unguarded};
 use std::collections::BTreeSet;
@@ -124,6 +126,21 @@ fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid
         .into_iter()
         .map(|(name, axis)| row(format!("ground_force_{name}"), "BW", cycle, grid, |i| force(i).dot(&axis) / weight))
         .collect()
+}
+
+/// Loads of the joints with the tensions of the muscles [body weights]: size of the force at hip, knee and ankle, and
+/// the shares of the condyles along the shank.
+pub(crate) fn contact_rows(model: &Model, analysis: &Analysis, found: &MuscleOutcome, cycle: &Cycle) -> Vec<CycleRow> {
+    let Some(LegLoads { joints, knee }) = &found.loads[cycle.side] else { return Vec::new() };
+    let grid = analysis.trajectory.grid();
+    let weight = analysis.mass.kg * model.gravity().norm();
+    let names = ["hip_contact_force", "knee_contact_force", "ankle_contact_force"];
+    let size = |(name, load): (&str, &JointLoad)| {
+        row(name.to_owned(), "BW", cycle, grid, |i| load.in_child[i].force.norm() / weight)
+    };
+    let shares = [("knee_medial_force", &knee.medial), ("knee_lateral_force", &knee.lateral)];
+    let share = |(name, values): (&str, &Vec<f64>)| row(name.to_owned(), "BW", cycle, grid, |i| values[i] / weight);
+    names.into_iter().zip(joints).map(size).chain(shares.map(share)).collect()
 }
 
 /// First line.

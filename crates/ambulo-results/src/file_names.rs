@@ -10,6 +10,12 @@ pub const MOMENTS_BIOLOGICAL: &str = "moments_biological.sto";
 pub const POWERS: &str = "powers.sto";
 /// Joint reactions.
 pub const REACTIONS: &str = "reactions.sto";
+/// Activations, forces and lengths of the muscles.
+pub const MUSCLES: &str = "muscles.sto";
+/// Loads of the joints, with the forces of the muscles.
+pub const CONTACT_REACTIONS: &str = "reactions_contact.sto";
+/// Envelopes of the electromyograms.
+pub const EMG: &str = "emg.sto";
 /// Ground forces.
 pub const GROUND: &str = "grf.mot";
 /// Standard deviations of predicted ground forces.

@@ -9,6 +9,8 @@ use crate::{
 use ambulo::analysis::{Analysis, Event};
 use ambulo::dynamics::JointMoments;
 use ambulo::model::{ExportError, Model, to_osim};
+use ambulo::muscles::set::MuscleSet;
+use ambulo::study::MuscleOutcome;
 use ambulo_formats::Error;
 use ambulo_formats::table::{Table, TableRows};
 use std::io::{self, Write};
@@ -147,12 +149,18 @@ impl<'a> OutputFile<'a> {
         OutputFile { name: CYCLES.to_owned(), content: Content::Cycles { count, rows: Box::new(rows) } }
     }
 
-    /// A model as an OpenSim file.
+    /// A model with its muscles as an OpenSim file.
     ///
     /// # Errors
     /// A model that the format cannot store.
-    pub fn body(name: impl Into<String>, model: &Model) -> Result<OutputFile<'a>, ExportError> {
-        let bytes = to_osim(model)?.write()?;
+    pub fn body(
+        name: impl Into<String>,
+        model: &Model,
+        muscles: Option<&MuscleSet>,
+    ) -> Result<OutputFile<'a>, ExportError> {
+        let mut document = to_osim(model)?;
+        muscles.into_iter().for_each(|muscles| muscles.write_into(model, &mut document));
+        let bytes = document.write()?;
         Ok(OutputFile { name: name.into(), content: Content::Body { model: Box::new(model.clone()), bytes } })
     }
 
@@ -288,7 +296,16 @@ pub fn output_files<'a>(
     device: Option<&'a [Vec<f64>]>,
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
-    files_of(model, analysis, device, &None, keep)
+    files_of(&Computed { model, analysis, device, muscles: None }, &None, keep)
+}
+
+/// What the tables of a run are made of.
+pub(crate) struct Computed<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) analysis: &'a Analysis,
+    /// Generalised forces of a worn device.
+    pub(crate) device: Option<&'a [Vec<f64>]>,
+    pub(crate) muscles: Option<&'a MuscleOutcome>,
 }
 
 /// Makes the rows of a table that has no word for missing, with the sources of the loads.
@@ -296,12 +313,11 @@ type Marked<'a> = Box<dyn Fn(&LoadSources) -> Result<TableRows<'a>, Error> + Sen
 
 /// As [`output_files`], with the sources of the loads in tables that have no word for missing.
 pub(crate) fn files_of<'a>(
-    model: &'a Model,
-    analysis: &'a Analysis,
-    device: Option<&'a [Vec<f64>]>,
+    computed: &Computed<'a>,
     sources: &LoadSources,
     keep: &Keep,
 ) -> Result<Vec<OutputFile<'a>>, Error> {
+    let Computed { model, analysis, device, muscles } = *computed;
     let marked = |name: &str, make: Marked<'a>| {
         let sources = sources.clone();
         OutputFile::storage_by(name, move || make(&sources))
@@ -327,7 +343,10 @@ pub(crate) fn files_of<'a>(
         let rows = move |k: usize| {
             let moments = shared.get_or_init(|| Mutex::new(analysis.joint_moments(model)));
             let moments = moments.lock().unwrap_or_else(PoisonError::into_inner);
-            cycle_table::rows_of(model, analysis, &analysis.cycles[k], &moments)
+            let cycle = &analysis.cycles[k];
+            let mut rows = cycle_table::rows_of(model, analysis, cycle, &moments);
+            rows.extend(muscles.into_iter().flat_map(|found| cycle_table::contact_rows(model, analysis, found, cycle)));
+            rows
         };
         files.push(OutputFile::cycles(analysis.cycles.len(), rows));
     }

@@ -19,7 +19,7 @@ pub struct Keep(Option<Vec<String>>);
 
 impl Keep {
     /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
-    pub const OF_RUNS: [&'static str; 21] = [
+    pub const OF_RUNS: [&'static str; 24] = [
         "report",
         "figures",
         "tables",
@@ -31,6 +31,9 @@ impl Keep {
         "moments_biological",
         "powers",
         "reactions",
+        "muscles",
+        "reactions_contact",
+        "emg",
         "grf",
         "grf_sd",
         "grf_measured",
@@ -61,7 +64,7 @@ impl Keep {
     pub const OF_SWEEPS: [&'static str; 6] = ["report", "figures", "tables", "summary", "sweep", "walks"];
     /// The names for the claims of the 1997 paper.
     pub const OF_THE_PAPER: [&'static str; 9] =
-        ["report", "figures", "tables", "summary", "claims", "muscles", "torques", "assumptions", "setting"];
+        ["report", "figures", "tables", "summary", "claims", "paper_muscles", "torques", "assumptions", "setting"];
 
     /// All outputs.
     #[must_use]

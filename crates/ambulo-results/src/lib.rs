@@ -7,6 +7,8 @@ mod file_names;
 mod files;
 mod folder;
 mod keep;
+mod muscle_summary;
+mod muscle_tables;
 mod outcome;
 mod prediction_files;
 mod run_summary;
@@ -30,14 +32,15 @@ pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, Fo
 pub use convention::{Convention, ConventionSummary};
 pub use cycle_table::{CycleRow, JOINT_MOMENTS, cycle_rows};
 pub use file_names::{
-    BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACTS, CYCLES, ENERGY, EVENTS, EXTERNAL_LOADS, FIGURE, GROUND,
-    GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, PAGE, POSES, POWERS, REACTIONS,
-    REFERENCE_GROUP, SCENE_REACTIONS, SESSION_PAGE, SHAPES, STANCES, STATES, SUBJECT, SUMMARY, TIMES_AND_DISTANCES,
-    TIMINGS, VALIDATION_PAGE, WALKS,
+    BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACT_REACTIONS, CONTACTS, CYCLES, EMG, ENERGY, EVENTS,
+    EXTERNAL_LOADS, FIGURE, GROUND, GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL,
+    MUSCLES, PAGE, POSES, POWERS, REACTIONS, REFERENCE_GROUP, SCENE_REACTIONS, SESSION_PAGE, SHAPES, STANCES, STATES,
+    SUBJECT, SUMMARY, TIMES_AND_DISTANCES, TIMINGS, VALIDATION_PAGE, WALKS,
 };
 pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use keep::Keep;
+pub use muscle_summary::{EmgSummary, MuscleOrigin, MuscleSummary, ReserveSummary};
 pub use outcome::outcome_tables;
 pub use prediction_files::deviation_columns;
 #[cfg(feature = "schema")]

@@ -1,6 +1,7 @@
 //! Makes tables from an outcome of `ambulo::study`.
 
-use crate::files::{OutputFile, files_of};
+use crate::files::{Computed, OutputFile, files_of};
+use crate::muscle_tables::muscle_files;
 use crate::prediction_files::prediction_files;
 use crate::tables::stances_csv;
 use crate::walking_summary::WalkingSummary;
@@ -15,13 +16,22 @@ use std::sync::Arc;
 /// Column names that a table cannot store, numbers that are not finite.
 pub fn outcome_tables<'a>(outcome: &'a Outcome, keep: &Keep) -> Result<Vec<OutputFile<'a>>, Error> {
     let sources = outcome.load_sources().map(Arc::new);
-    let mut files = files_of(&outcome.body, outcome.complete(), outcome.device.as_deref(), &sources, keep)?;
+    let computed = Computed {
+        model: &outcome.body,
+        analysis: outcome.complete(),
+        device: outcome.device.as_deref(),
+        muscles: outcome.muscles.as_ref(),
+    };
+    let mut files = files_of(&computed, &sources, keep)?;
     if keep.includes(STANCES) && !outcome.stances.is_empty() {
         files.push(OutputFile::new(STANCES, stances_csv(&outcome.stances).into_bytes()));
     }
     let walking = WalkingSummary::of(&outcome.times_and_distances);
     if keep.includes(TIMES_AND_DISTANCES) && !walking.quantities.is_empty() {
         files.push(walking.file()?);
+    }
+    if let Some(found) = &outcome.muscles {
+        files.extend(muscle_files(&outcome.body, outcome.complete(), found, &sources, keep));
     }
     if let Some(PredictedGround { prediction, measured, .. }) = &outcome.prediction {
         files.extend(prediction_files(&outcome.body, &outcome.analysis, prediction, measured.as_ref(), keep));

@@ -2,6 +2,7 @@
 
 use crate::consistency_summary::ConsistencySummary;
 use crate::convention::ConventionSummary;
+use crate::muscle_summary::{MuscleSummary, muscle_summary};
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
 use crate::tracking_summary::TrackingSummary;
@@ -68,6 +69,9 @@ pub struct Summary {
     /// not known.
     #[serde(default)]
     pub knee_adduction_moment: Vec<QuantitySummary>,
+    /// Muscle forces; left out where they were not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub muscles: Option<MuscleSummary>,
     /// Source of the ground forces.
     pub ground: Ground,
     /// Residual force and moment at the root.
@@ -356,6 +360,7 @@ pub fn outcome_summary(outcome: &Outcome, input: Input, findings: &Findings) -> 
         activity: Some(outcome.activity),
         times_and_distances: WalkingSummary::of(&outcome.times_and_distances),
         knee_adduction_moment: knee_adduction_summary(&outcome.knee_adduction()),
+        muscles: muscle_summary(outcome),
         residual: residual(model, analysis),
         peaks: peaks(model, outcome.complete()),
         findings: findings.as_slice().to_vec(),

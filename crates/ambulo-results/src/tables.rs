@@ -27,7 +27,7 @@ pub(crate) fn table(name: &str, analysis: &Analysis, columns: Vec<Column>) -> Re
     rows(name, analysis, columns)
 }
 
-fn rows<'a>(
+pub(crate) fn rows<'a>(
     name: &str,
     analysis: &Analysis,
     columns: impl IntoIterator<Item = LazyColumn<'a>>,
@@ -39,7 +39,7 @@ fn rows<'a>(
     Ok(table)
 }
 
-fn column<'a>(name: String, values: &'a [f64]) -> LazyColumn<'a> {
+pub(crate) fn column<'a>(name: String, values: &'a [f64]) -> LazyColumn<'a> {
     (name, Box::new(move |i| values[i]))
 }
 
@@ -129,7 +129,7 @@ pub(crate) fn ground(model: &Model, analysis: &Analysis, sources: &LoadSources) 
 
 /// `ground_source_r` and `_l`: 0 where the load of the foot was measured or the foot is in the air, 1 where it was
 /// predicted, 2 where it is unknown. No columns where nothing is marked.
-fn marks<'a>(sources: &LoadSources) -> Vec<LazyColumn<'a>> {
+pub(crate) fn marks<'a>(sources: &LoadSources) -> Vec<LazyColumn<'a>> {
     let column = |side: Side, sources: &Arc<BySide<Vec<f64>>>| -> LazyColumn<'a> {
         let sources = Arc::clone(sources);
         (format!("ground_source_{}", side.letter()), Box::new(move |i| sources[side][i]))

@@ -32,7 +32,7 @@ pub struct WalkingSummary {
 pub struct QuantitySummary {
     /// Name: `cadence`, `step_length`.
     pub quantity: String,
-    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`, `N.m/kg`, `N.m.s/kg`.
+    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`, `N.m/kg`, `N.m.s/kg`, `BW`, `BW.s`.
     pub unit: String,
     /// Strides of the right foot.
     pub right: Option<SpreadSummary>,
@@ -143,7 +143,13 @@ impl QuantitySummary {
 /// neither pooled nor compared: predicted peaks are lower than measured ones.
 #[must_use]
 pub fn knee_adduction_summary(legs: &BySide<LegStances>) -> Vec<QuantitySummary> {
-    let names = [("first_peak", "N.m/kg"), ("second_peak", "N.m/kg"), ("impulse", "N.m.s/kg")];
+    stance_summary(legs, ["N.m/kg", "N.m/kg", "N.m.s/kg"], "")
+}
+
+/// `first_peak`, `second_peak` and `impulse` over the stances of both legs, in these units, with this before their
+/// names.
+pub(crate) fn stance_summary(legs: &BySide<LegStances>, units: [&str; 3], prefix: &str) -> Vec<QuantitySummary> {
+    let names = ["first_peak", "second_peak", "impulse"].into_iter().zip(units);
     let quantity = |(k, (quantity, unit)): (usize, (&str, &str))| {
         let values = |side: Side| legs[side].stances.iter().map(|found| found[k]).collect::<Vec<f64>>();
         let of = |side: Side| SpreadSummary::of_values(&values(side), legs[side].source);
@@ -156,7 +162,7 @@ pub fn knee_adduction_summary(legs: &BySide<LegStances>) -> Vec<QuantitySummary>
             SpreadSummary::of_values(&Side::BOTH.map(values).concat(), source)
         };
         QuantitySummary {
-            quantity: quantity.to_owned(),
+            quantity: format!("{prefix}{quantity}"),
             unit: unit.to_owned(),
             right,
             left,
@@ -164,7 +170,7 @@ pub fn knee_adduction_summary(legs: &BySide<LegStances>) -> Vec<QuantitySummary>
             symmetry: symmetry.filter(|_| is_comparable),
         }
     };
-    let quantities = names.into_iter().enumerate().map(quantity);
+    let quantities = names.enumerate().map(quantity);
     quantities.filter(|quantity| quantity.right.is_some() || quantity.left.is_some()).collect()
 }
 

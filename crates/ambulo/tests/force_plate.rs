@@ -410,3 +410,21 @@ fn depth_is_the_distance_to_the_nearest_edge() {
         assert!((depth - expected).abs() < 1e-6, "{point:?}: {depth}");
     }
 }
+
+/// Without a step, the shape of the load does not show the unit; that somebody stands still above the plate does.
+#[test]
+fn somebody_who_stands_still_on_a_plate_in_kilonewtons_weighs_a_person() {
+    let mut file = levels(&[0.7, 0.7]);
+    file.markers_mm = vec![[200.0, 300.0, 900.0], [250.0, 200.0, 50.0]];
+    let (plate, findings) = read(&file);
+    assert!((plate.vertical(5) - 700.0).abs() < 0.01, "{}", plate.vertical(5));
+    let found = findings.as_slice().iter().find(|finding| finding.code == Code::PlatesUnitByWeight).unwrap();
+    assert!(found.message.starts_with("the person who stands on the force plates weighs 0.7 N"), "{}", found.message);
+    // An offset of a plate on which nobody stands, and a load that changes, are no weight.
+    let beside = File { markers_mm: vec![[1400.0, 300.0, 900.0], [1450.0, 200.0, 50.0]], ..file.clone() };
+    let changing = File { markers_mm: file.markers_mm.clone(), ..levels(&[0.7, 0.2]) };
+    for file in [beside, changing] {
+        let (plate, findings) = read(&file);
+        assert!(plate.vertical(5) < 1.0 && !findings.has(Code::PlatesUnitByWeight), "{:?}", findings.as_slice());
+    }
+}

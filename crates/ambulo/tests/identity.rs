@@ -14,10 +14,12 @@ use ambulo::analysis::MarkerTrialError;
 use ambulo::findings::{Code, Findings};
 use ambulo::job::FileError;
 use ambulo::job::trials::{FoundFile, Listing, TrialFolder, Wanted};
+use ambulo::model::{Marker, Model};
 use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
-    self, LaboratoryFile, MarkerSource, Outcome, QualityState, Recording, Settings, Source, StandingTrial, StudyError,
+    self, LaboratoryFile, MarkerBody, MarkerSource, Outcome, QualityState, Recording, Settings, Source, StandingTrial,
+    StudyError,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -132,6 +134,43 @@ fn a_marker_that_only_the_standing_trial_lacks_is_placed_by_the_walk() {
             assert!(!findings.has(Code::CalibrationOtherLimbs) && !findings.has(Code::MarkersMoved));
             assert!(found.not_measured.is_empty());
         }
+    }
+}
+
+/// A given model with a marker 40 mm from its place on the person: the standing trial moves it there, or, where it does
+/// not show the marker, the walk.
+#[test]
+fn a_marker_of_a_given_model_that_only_the_standing_trial_lacks_is_placed_by_the_walk() {
+    let Some(data) = data() else { return };
+    let folder = data.join("opensim-gait2392-subject01");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let model = Model::from_osim(&read("subject01_simbody.osim"), &mut Findings::default()).unwrap();
+    let trial = |name: &str| LaboratoryFile::from_trc(read(name), name, &mut Findings::default()).unwrap();
+    let source = |lost: &str| {
+        let displaced = |marker: &Marker| match marker.name == lost {
+            true => Marker { location: marker.location + Vec3::new(0.03, 0.02, 0.02), ..marker.clone() },
+            false => marker.clone(),
+        };
+        let model = model.with_markers(model.markers().iter().map(displaced).collect()).unwrap();
+        Source::markers(MarkerSource {
+            trial: trial("subject01_walk1.trc"),
+            standing: Some(Arc::new(StandingTrial::new(trial("subject01_static.trc")))),
+            body: MarkerBody::Model { model, mass_kg: None, protocol: None },
+            plates: Vec::new(),
+        })
+    };
+    for (lost, coordinate) in
+        [("R.Shank.Upper", "knee_angle_r"), ("R.Toe.Tip", "ankle_angle_r"), ("L.Thigh.Front", "hip_rotation_l")]
+    {
+        let (clean, findings) = run(source(lost));
+        assert!(!findings.has(Code::CalibrationPlaced));
+        let mut spoiled = source(lost);
+        change_standing(&mut spoiled, |still| hide(still, lost));
+        let (found, findings) = run(spoiled);
+        let angle = apart(&clean, &found, coordinate);
+        println!("{lost}: {coordinate} {angle:.2} degrees");
+        assert!(message(&findings, Code::CalibrationPlaced).contains(lost));
+        assert!(angle < 1.0, "{lost}: {angle}");
     }
 }
 

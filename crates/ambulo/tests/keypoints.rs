@@ -11,7 +11,7 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Marker, Model};
-use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::motion::{MarkerPath, MarkerRecording, Window};
 use ambulo::spatial::Vec3;
 use ambulo::study::{
     self, LaboratoryFile, MarkerBody, MarkerSource, Measure, Outcome, QualityState, Settings, Source, Tracking,
@@ -70,7 +70,8 @@ fn followed(markers: &MarkerRecording, findings: &mut Findings) -> BodyInMotion 
     let measurements = BodyMeasurements::default();
     let person = PersonMeasurements { table: SegmentTable::DeLevaMale, mass: 70.0, height: Some(1.75), measurements };
     let body = BodySource::BuiltIn { person: &person, set: None };
-    let trial = MarkerTrial { trial: &trial, standing: None, bodies: None, body, plate_feet: &[] };
+    let trial =
+        MarkerTrial { trial: &trial, standing: None, bodies: None, body, plate_feet: &[], window: Window::default() };
     body_in_motion(&trial, &FitSettings::default(), findings).unwrap()
 }
 

@@ -43,7 +43,14 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     let mut findings = Findings::default();
     let body = BodySource::BuiltIn { person: &trial.subject.person, set: None };
     let settings = FitSettings::default();
-    let markers = MarkerTrial { trial: walk, standing: Some(&trial.still), bodies: None, body, plate_feet: &[] };
+    let markers = MarkerTrial {
+        trial: walk,
+        standing: Some(&trial.still),
+        bodies: None,
+        body,
+        plate_feet: &[],
+        window: Window::default(),
+    };
     let body = body_in_motion(&markers, &settings, &mut findings).unwrap();
     let [from, to] = trial.window;
     let settings = AnalysisSettings {

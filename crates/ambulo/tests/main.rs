@@ -50,6 +50,7 @@ mod feasibility_motions;
 mod feet_on_plates;
 mod filters;
 mod findings;
+mod fitted_range;
 mod foot_motion;
 mod footfalls;
 mod footfalls_puppet;

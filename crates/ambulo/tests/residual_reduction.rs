@@ -101,7 +101,14 @@ fn of_c3d(name: &'static str, subject: &gait_files::Subject, seen: Seen) -> Case
     let (still, walk) = (recording(&subject.standing), recording(&subject.walk));
     let body = BodySource::BuiltIn { person: &subject.person, set: None };
     let settings = FitSettings::default();
-    let trial = MarkerTrial { trial: &walk, standing: Some(&still), bodies: None, body, plate_feet: &[] };
+    let trial = MarkerTrial {
+        trial: &walk,
+        standing: Some(&still),
+        bodies: None,
+        body,
+        plate_feet: &[],
+        window: Window::default(),
+    };
     let body = body_in_motion(&trial, &settings, &mut findings).unwrap();
     case(name, body.subject.model.clone(), &body.fit.motion, &body.plate_forces(), seen)
 }

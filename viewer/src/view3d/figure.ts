@@ -14,12 +14,17 @@ interface Limb {
   motion: Motion;
 }
 
+/** Opacity of the bodies while muscles are shown inside them. */
+const GLASS = 0.3;
+
 /** The moving bodies. */
 export class Figure {
   readonly group = new Group();
   /** Bodies in their current pose, in the order of the page. */
   readonly limbs: Limb[];
   private readonly materials: { material: MeshStandardMaterial; side: PageSide | null }[] = [];
+  private colors: Palette | null = null;
+  private clear = false;
 
   constructor(view: View, numbers: SeriesReader) {
     this.limbs = view.bodies.map((body) => {
@@ -44,8 +49,21 @@ export class Figure {
   }
 
   recolor(colors: Palette): void {
+    this.colors = colors;
     for (const { material, side } of this.materials) {
-      material.color.copy(limbColor(colors, side));
+      material.color.copy(this.clear ? colors.neutral : limbColor(colors, side));
+    }
+  }
+
+  /** Makes the bodies translucent and grey, so that muscles are visible inside them, or solid in the colours of the sides. */
+  set translucent(clear: boolean) {
+    this.clear = clear;
+    for (const { material } of this.materials) {
+      Object.assign(material, { transparent: clear, opacity: clear ? GLASS : 1, depthWrite: !clear });
+      material.needsUpdate = true;
+    }
+    if (this.colors) {
+      this.recolor(this.colors);
     }
   }
 

@@ -6,6 +6,7 @@ import { type CameraKind, CameraRig } from "./camera";
 import { say } from "./empty";
 import { listen, touchAction } from "./gestures";
 import { addAll, release } from "./layers";
+import { activationKey, hasMuscles } from "./muscles";
 import { FIRST_OPTIONS, type ViewOptions } from "./options";
 import { palette } from "./palette";
 import type { SeriesReader } from "./reader";
@@ -28,7 +29,7 @@ export interface View3D {
   setCamera(kind: CameraKind): void;
   /** Shows or hides parts. */
   setOptions(options: Partial<ViewOptions>): void;
-  /** The current picture as a PNG data URL; empty if there is none. */
+  /** The current picture without muscles, as a PNG data URL; empty if there is none. */
   still(): string;
   dispose(): void;
 }
@@ -56,6 +57,8 @@ class Picture implements View3D {
   readonly options: ViewOptions = { ...FIRST_OPTIONS };
   private readonly canvas = document.createElement("canvas");
   private readonly toggles: ReturnType<typeof toggleBar>;
+  private readonly activation = activationKey();
+  private readonly muscles: boolean;
   private readonly world: World;
   private readonly stage: Stage;
   private readonly rig: CameraRig;
@@ -82,8 +85,9 @@ class Picture implements View3D {
     this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
     this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
-    host.append(this.toggles.bar);
-    this.world.show(this.options);
+    this.muscles = hasMuscles(view);
+    host.append(this.toggles.bar, this.activation.key);
+    this.show(this.options);
     this.recolor();
     this.world.pose(clock.time, this.place);
     this.rig.follow(this.place);
@@ -100,14 +104,21 @@ class Picture implements View3D {
 
   setOptions(options: Partial<ViewOptions>): void {
     Object.assign(this.options, options);
-    this.world.show(this.options);
+    this.show(this.options);
     this.toggles.refresh();
     this.stage.invalidate();
   }
 
   still(): string {
+    const hides = this.muscles && this.options.muscles;
+    this.show({ ...this.options, muscles: false });
     this.stage.draw();
-    return this.canvas.toDataURL("image/png");
+    const picture = this.canvas.toDataURL("image/png");
+    if (hides) {
+      this.show(this.options);
+      this.stage.draw();
+    }
+    return picture;
   }
 
   dispose(): void {
@@ -119,6 +130,12 @@ class Picture implements View3D {
     this.stage.dispose();
     this.canvas.remove();
     this.toggles.bar.remove();
+    this.activation.key.remove();
+  }
+
+  private show(options: ViewOptions): void {
+    this.world.show(options);
+    this.activation.key.hidden = !(this.muscles && options.muscles);
   }
 
   /** Updates everything for the next picture. */
@@ -158,6 +175,7 @@ class Picture implements View3D {
   private recolor(): void {
     const colors = palette(theme() === "dark", this.ghosts);
     this.world.recolor(colors);
+    this.activation.recolor(colors);
     this.stage.recolor(colors);
     this.stage.invalidate();
   }

@@ -8,9 +8,18 @@ export interface ViewOptions {
   trail: boolean;
   /** Loaded sole points. */
   contacts: boolean;
+  /** Lines of the muscles, coloured by their activation. */
+  muscles: boolean;
   /** Figures of the compared sessions. */
   ghost: boolean;
 }
 
 /** Moments are hidden at first: with them the picture is too full. */
-export const FIRST_OPTIONS: ViewOptions = { forces: true, torques: false, trail: true, contacts: true, ghost: true };
+export const FIRST_OPTIONS: ViewOptions = {
+  forces: true,
+  torques: false,
+  trail: true,
+  contacts: true,
+  muscles: true,
+  ghost: true,
+};

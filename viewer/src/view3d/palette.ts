@@ -19,6 +19,9 @@ export interface Palette {
   grid: Color;
   plate: Color;
   obstacle: Color;
+  /** A muscle at rest and a fully active one: different in hue and lightness, for colour-blind eyes too. */
+  rest: Color;
+  active: Color;
   sessions: Color[];
 }
 
@@ -53,6 +56,8 @@ export function palette(dark: boolean, compared: boolean): Palette {
     grid: new Color(dark ? "#4c545d" : "#a3adb8"),
     plate: new Color(dark ? "#6f7b88" : "#8d99a6"),
     obstacle: new Color(dark ? "#a58b52" : "#c9a968"),
+    rest: new Color(dark ? "#6d87a3" : "#8299b3"),
+    active: new Color(dark ? "#ff4b3e" : "#b3001b"),
     sessions: looks.sessions.map(of),
   };
 }

@@ -1,5 +1,6 @@
 import type { View } from "../contract";
 import { button, element } from "../element";
+import { hasMuscles } from "./muscles";
 import type { ViewOptions } from "./options";
 import { leavesTrail } from "./trail";
 
@@ -13,6 +14,7 @@ interface Toggle {
 const FORCES: Toggle = { word: "Forces", hint: "Arrows of the ground forces", keys: ["forces"] };
 const MOMENTS: Toggle = { word: "Moments", hint: "Arcs of the joint moments", keys: ["torques"] };
 const SOLES: Toggle = { word: "Soles", hint: "Centre of pressure and loaded sole points", keys: ["trail", "contacts"] };
+const MUSCLES: Toggle = { word: "Muscles", hint: "Muscles, coloured by activation", keys: ["muscles"] };
 const GHOST: Toggle = { word: "Ghost", hint: "Figure of the compared session", keys: ["ghost"] };
 
 /** Toggles that have an effect in this view. */
@@ -21,6 +23,7 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
     ...(view.forces.length > 0 ? [FORCES] : []),
     ...(view.torques.length > 0 ? [MOMENTS] : []),
     ...(view.forces.some(leavesTrail) || view.contacts.length > 0 ? [SOLES] : []),
+    ...(hasMuscles(view) ? [MUSCLES] : []),
     ...(ghosts ? [GHOST] : []),
   ];
 }

@@ -7,6 +7,7 @@ import { Figure } from "./figure";
 import { Floor } from "./floor";
 import { Forces, peakOf } from "./forces";
 import { Ghost } from "./ghost";
+import { hasMuscles, Muscles } from "./muscles";
 import { Obstacles } from "./obstacles";
 import type { ViewOptions } from "./options";
 import type { Palette } from "./palette";
@@ -30,6 +31,7 @@ export class World {
   private readonly torques: Torques;
   private readonly trail: Trail;
   private readonly contacts: Contacts;
+  private readonly muscles: Muscles;
   private readonly obstacles: Obstacles;
   private readonly still: (Plates | Obstacles | Ruler)[];
   private readonly hips = new Vector3();
@@ -53,6 +55,7 @@ export class World {
     this.torques = new Torques(view, numbers, session.feasibility?.red ?? [], height);
     this.trail = new Trail(view, numbers);
     this.contacts = new Contacts(view, height, view.floor_m);
+    this.muscles = new Muscles(view, numbers, height);
     const [from, to] = [0, timeline.frames - 1].map((frame) => this.path.smooth(frame, new Vector3()));
     const ruler = new Ruler(from ?? this.hips, to ?? this.hips, this.path.heading, view.floor_m, 0.45);
     this.obstacles = new Obstacles(view);
@@ -65,9 +68,9 @@ export class World {
   }
 
   /** All coloured objects in the scene. */
-  get parts(): (Figure | Floor | Forces | Torques | Trail | Contacts | Ghost | Plates | Obstacles | Ruler)[] {
-    const { figure, floor, forces, torques, trail, contacts } = this;
-    return [figure, floor, forces, torques, trail, contacts, ...this.ghosts, ...this.still];
+  get parts(): (Figure | Floor | Forces | Torques | Trail | Contacts | Muscles | Ghost | Plates | Obstacles | Ruler)[] {
+    const { figure, floor, forces, torques, trail, contacts, muscles } = this;
+    return [figure, floor, forces, torques, trail, contacts, muscles, ...this.ghosts, ...this.still];
   }
 
   /** Extent of the figure with its ghosts. */
@@ -91,6 +94,8 @@ export class World {
     this.torques.group.visible = options.torques;
     this.trail.group.visible = options.trail;
     this.contacts.group.visible = options.contacts;
+    this.muscles.group.visible = options.muscles;
+    this.figure.translucent = options.muscles && hasMuscles(this.view);
     for (const ghost of this.ghosts) {
       ghost.show(options);
     }
@@ -111,6 +116,7 @@ export class World {
     this.torques.pose(frame, time, this.figure);
     this.trail.pose(frame);
     this.contacts.pose(frame, this.figure, this.forces);
+    this.muscles.pose(frame, this.figure);
     if (this.ghosts.length > 0 && this.path.hips(frame, this.hips)) {
       for (const ghost of this.ghosts) {
         ghost.pose(time, this.gait, this.hips, this.view.floor_m);

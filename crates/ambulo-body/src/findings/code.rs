@@ -77,6 +77,19 @@ codes! {
     MusclesInsideWrap "muscles.inside_wrap" Warning
         "The path of a muscle has an end inside a surface over which it should wrap; it runs straight there."
         "Move the point or the surface in the model.";
+    MusclesReserves "muscles.reserves" Warning
+        "The muscles are too weak for a moment: motors add more than a tenth of the largest one at this coordinate."
+        "Check the strength of the muscles and the moments; forces of the muscles there are too small by what the \
+         motors add.";
+    MusclesAvailable "muscles.available" Note
+        "The model has muscles, and their forces were not asked for."
+        "Ask for muscle forces to get activations, tensions and the loads of the joints.";
+    EmgUnused "emg.unused" Warning
+        "The electromyograms of the recording cannot be used."
+        "Check the channels, or give a table of electromyograms.";
+    EmgSilent "emg.silent" Note
+        "Channels with the name of a muscle hold no signal of one."
+        "Nothing to do if no electrode was there.";
     // Input files.
     FileOdd "file.odd" Warning
         "A file deviates from its format; it was read with the assumption in the message."

@@ -37,7 +37,7 @@ use super::spread;
 use crate::kinematics::calibration::axes::fit_pose;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::asin;
-use crate::numerics::{DenseLu, Random};
+use crate::numerics::{DenseLu, Random, counted, degrees};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Smallest range of the thigh in the plane in which it moves least [rad]: that of Ehrig's narrowest cone.
@@ -108,13 +108,13 @@ pub fn symmetrical_centre(frames: &[Rotated]) -> Option<([Vec3; 2], f64)> {
 pub(super) fn centre(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Result<FunctionalHip, String> {
     let refused = |why: String| Err(format!("the movement does not show the centre of the {} hip: {why}", leg.side));
     if leg.thigh.markers.len() < FEWEST_MARKERS {
-        return refused(format!("the thigh has {} markers; expected at least 2", leg.thigh.markers.len()));
+        return refused(format!("the thigh has {}; expected at least 2", counted(leg.thigh.markers.len(), "marker")));
     }
     let frames: Vec<Points> = spread(movement.frames()).filter_map(|f| points(leg, f)).collect();
     if frames.len() < FEWEST_FRAMES {
         return refused(format!(
-            "pelvis and thigh are visible in {} frames; expected at least {FEWEST_FRAMES}",
-            frames.len()
+            "pelvis and thigh are visible in {}; expected at least {FEWEST_FRAMES}",
+            counted(frames.len(), "frame")
         ));
     }
     let mut joint = BallJoint::of(leg, movement);
@@ -132,8 +132,8 @@ pub(super) fn centre(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Resul
     let [most, least] = range_rad.map(f64::to_degrees);
     if range_rad[1] < LEAST_RANGE {
         return refused(format!(
-            "the thigh moves over {most:.0} degrees in one plane and {least:.0} across it; expected at least {:.0} in \
-             both",
+            "the thigh moves over {} in one plane and {least:.0} across it; expected at least {:.0} in both",
+            degrees(most),
             LEAST_RANGE.to_degrees()
         ));
     }

@@ -15,7 +15,7 @@ use super::segments::LegSegments;
 use super::spread;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::atan2;
-use crate::numerics::{mean, range};
+use crate::numerics::{counted, degrees, mean, range};
 use crate::spatial::{Mat3, Vec3, rotation_vector};
 
 /// Smallest range of the knee [rad]: that from which Ehrig 2006 found centres within 3 mm by most methods.
@@ -57,8 +57,8 @@ pub(super) fn axis(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Result<
     let frames: Vec<Rotated> = spread(movement.frames()).filter_map(both).collect();
     if frames.len() < FEWEST_FRAMES {
         return refused(format!(
-            "thigh and shank are known in {} frames; expected at least {FEWEST_FRAMES}, with two markers on each",
-            frames.len()
+            "thigh and shank are known in {}; expected at least {FEWEST_FRAMES}, with two markers on each",
+            counted(frames.len(), "frame")
         ));
     }
     let Some([axis, _]) = symmetrical_axis(&frames) else { return refused("its segments do not move".to_owned()) };
@@ -66,18 +66,18 @@ pub(super) fn axis(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Result<
     let [range_rad, off_rad] = rotations(&frames, axis);
     if range_rad < LEAST_RANGE {
         return refused(format!(
-            "it bends by {:.0} degrees; expected at least {:.0}",
-            range_rad.to_degrees(),
+            "it bends by {}; expected at least {:.0}",
+            degrees(range_rad.to_degrees()),
             LEAST_RANGE.to_degrees()
         ));
     }
     let turn_rad = atan2(axis.x, axis.z);
     if off_rad > MOST_OFF || turn_rad.abs() > MOST_TURN {
         return refused(format!(
-            "it turns by {:.0} degrees about other axes, and its axis is {:.0} degrees from that of the markers; \
-             expected at most {:.0} and {:.0}",
-            off_rad.to_degrees(),
-            turn_rad.abs().to_degrees(),
+            "it turns by {} about other axes, and its axis is {} from that of the markers; expected at most {:.0} and \
+             {:.0}",
+            degrees(off_rad.to_degrees()),
+            degrees(turn_rad.abs().to_degrees()),
             MOST_OFF.to_degrees(),
             MOST_TURN.to_degrees()
         ));

@@ -5,8 +5,8 @@
 //!
 //!   ω = Σ aₖ dθₖ/dq                         v = Σ eᵢ ddᵢ/dq          at the joint centre
 //!
-//! and for a joint whose speeds are angular velocities, per unit of each speed: ω is an axis of F. The generalised force
-//! of a force f with the moment n about the joint centre is ω · n + v · f, as in `dynamics::inverse`.
+//! and for a joint whose speeds are angular velocities, per unit of each speed: ω is an axis of F. The generalised
+//! force of a force f with the moment n about the joint centre is ω · n + v · f, as in `dynamics::inverse`.
 
 use super::body_motion::BodyMotion;
 use super::plan::Plan;

@@ -162,6 +162,8 @@ pub struct Model {
     markers: Vec<Marker>,
     bushings: Vec<Bushing>,
     anatomy: Arc<Anatomy>,
+    /// Factors by which the bodies were scaled; empty for a model as it was made.
+    factors: Vec<Vec3>,
 }
 
 /// Why parts cannot be assembled into a model.
@@ -275,7 +277,8 @@ impl Model {
         let anatomy = Arc::default();
         let up = gravity.try_normalize(f64::MIN_POSITIVE).map_or(Vec3::y(), |down| -down);
         let bushings = Vec::new();
-        let mut model = Model { name: name.into(), gravity, up, bodies, coordinates, markers, bushings, anatomy };
+        let (name, factors) = (name.into(), Vec::new());
+        let mut model = Model { name, gravity, up, bodies, coordinates, markers, bushings, anatomy, factors };
         model.check()?;
         model.anatomy = Arc::new(Anatomy::find(&model));
         Ok(model)
@@ -360,6 +363,12 @@ impl Model {
     #[must_use]
     pub fn bushings(&self) -> &[Bushing] {
         &self.bushings
+    }
+
+    /// How much each body was scaled along its axes since the model was read or made, one entry per body.
+    #[must_use]
+    pub fn scale_factors(&self) -> Vec<Vec3> {
+        if self.factors.is_empty() { vec![Vec3::repeat(1.0); self.bodies.len()] } else { self.factors.clone() }
     }
 
     /// The model with its bushings replaced by these.

@@ -115,7 +115,10 @@ impl Model {
         let markers = self.markers.iter().map(place).collect();
         let end = |end: BushingEnd| BushingEnd { frame: scaled_pose(&end.frame, &of(end.body)), ..end };
         let bushings = self.bushings.iter().map(|b| Bushing { ends: b.ends.map(end), ..b.clone() }).collect();
-        Ok(Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?.with_bushings(bushings)?)
+        let scaled =
+            Model::new(self.name.clone(), self.gravity, bodies, coordinates, markers)?.with_bushings(bushings)?;
+        let all = self.scale_factors().iter().zip(factors).map(|(before, own)| before.component_mul(own)).collect();
+        Ok(Model { factors: all, ..scaled })
     }
 
     /// The model with other markers.
@@ -123,8 +126,8 @@ impl Model {
     /// # Errors
     /// None at present; see [`ModelError`].
     pub fn with_markers(&self, markers: Vec<Marker>) -> Result<Model, ModelError> {
-        Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)?
-            .with_bushings(self.bushings.clone())
+        let same = Model::new(self.name.clone(), self.gravity, self.bodies.clone(), self.coordinates.clone(), markers)?;
+        Ok(Model { factors: self.factors.clone(), ..same.with_bushings(self.bushings.clone())? })
     }
 }
 

@@ -22,7 +22,7 @@ use super::segment_poses::{SegmentPoses, in_words};
 use super::sensor_recording::SensorRecording;
 use crate::findings::{Code, Findings};
 use crate::model::{CoordinateKind, Model};
-use crate::numerics::median;
+use crate::numerics::{counted, median};
 use crate::spatial::{Mat3, Pose, Vec3};
 use std::ops::Range;
 
@@ -227,7 +227,12 @@ fn release_single_markers(recording: &mut MarkerRecording, things: &str, finding
         let path = &mut recording.markers[*marker];
         runs.iter().for_each(|run| path.positions[run.clone()].fill(Vec3::repeat(f64::NAN)));
         let frames: usize = runs.iter().map(ExactSizeIterator::len).sum();
-        named.push(format!("`{}` {frames} frames from {:.3} s", path.name, recording.times[runs[0].start]));
+        named.push(format!(
+            "`{}` {} from {:.3} s",
+            path.name,
+            counted(frames, "frame"),
+            recording.times[runs[0].start]
+        ));
     }
     named.dedup();
     if !named.is_empty() {

@@ -16,7 +16,7 @@ use super::segment_poses::SegmentPoses;
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::numerics::elementary::{atan2, cos};
-use crate::numerics::median;
+use crate::numerics::{degrees, median};
 use crate::spatial::{Mat3, Vec3};
 
 /// A heading closer than this to an axis of the laboratory is rounded to it [deg].
@@ -277,8 +277,9 @@ fn forward(
                 return (snapped(-travel, up), Heading::Walking);
             }
             let message = format!(
-                "the body moves at {apart:.0} degrees to its facing direction; forward is the facing direction. hint: \
-                 check whether left and right markers are swapped"
+                "the body moves at {} to its facing direction; forward is the facing direction. hint: check whether left \
+                 and right markers are swapped",
+                degrees(apart)
             );
             findings.report(Code::LaboratorySideways, message);
             (snapped(facing, up), Heading::Facing)
@@ -335,8 +336,9 @@ fn travel(
         "its direction from beginning to end"
     };
     let message = format!(
-        "the body turns by about {turn:.0} degrees; forward is {chosen}, so that pelvis angles and fore-aft forces are \
-         less meaningful than in a straight walk"
+        "the body turns by about {}; forward is {chosen}, so that pelvis angles and fore-aft forces are less meaningful \
+         than in a straight walk",
+        degrees(turn)
     );
     findings.report(Code::LaboratoryTurning, message);
     Some(Travel { direction: on_plates.unwrap_or_else(|| way.normalize()), turn_deg: Some(turn) })
@@ -424,7 +426,7 @@ fn direction_name(direction: Vec3, up: Vec3) -> String {
     }
     let second = direction - axis * direction.dot(&axis);
     let (towards, _) = nearest_axis(second.try_normalize(f64::MIN_POSITIVE).unwrap_or(up));
-    format!("{deg:.0} degrees from {} towards {}", axis_name(axis), axis_name(towards))
+    format!("{} from {} towards {}", degrees(deg), axis_name(axis), axis_name(towards))
 }
 
 fn axis_name(axis: Vec3) -> String {

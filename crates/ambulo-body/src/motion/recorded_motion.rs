@@ -3,6 +3,7 @@
 use super::marker_recording::{MarkerRecording, markers_from_c3d};
 use super::segment_poses::{SegmentPoseError, SegmentPoses, segment_poses_from_c3d};
 use crate::findings::{Code, Findings};
+use crate::numerics::counted;
 use ambulo_formats::c3d::C3d;
 
 /// The motion in a C3D file, in the axes of the laboratory.
@@ -26,11 +27,11 @@ pub fn motion_from_c3d(c3d: &C3d, findings: &mut Findings) -> Result<RecordedMot
         Ok(poses) => {
             let markers = poses.points("");
             let others = match markers_from_c3d(c3d, &mut Findings::default()) {
-                Ok(own) => format!("; {} markers of the file were not used", own.markers.len()),
+                Ok(own) => format!("; not used: {} of the file", counted(own.markers.len(), "marker")),
                 Err(_) => String::new(),
             };
-            let (segments, statement) = (poses.segments.len(), &poses.statement);
-            let message = format!("poses of {segments} segments drive the body ({statement}){others}");
+            let (segments, statement) = (counted(poses.segments.len(), "segment"), &poses.statement);
+            let message = format!("poses of {segments} drive the body ({statement}){others}");
             findings.report(Code::PosesUsed, message);
             Ok(RecordedMotion { markers, poses: Some(poses) })
         }

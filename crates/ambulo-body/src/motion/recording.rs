@@ -2,7 +2,7 @@
 
 use super::filter::FilterError;
 use crate::model::CoordinateId;
-use crate::numerics::{Shown, SplineError};
+use crate::numerics::{Shown, SplineError, counted};
 
 /// Coordinates over time as in the file: SI units, increasing times, gaps as not-a-number.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,8 +144,7 @@ pub enum MotionError {
     /// A long time without any row.
     #[error(
         "there is no row between {from_s:.4} s and {to_s:.4} s; expected steps of at most {longest_s} s. hint: choose \
-         a \
-         range on one side of the gap, or check the unit of the times"
+         a range on one side of the gap, or check the unit of the times"
     )]
     NoRows {
         /// Last time before [s].
@@ -235,7 +234,7 @@ pub enum MotionError {
     #[error(
         "motion and forces have {} in common: the motion lasts from {:.3} s to {:.3} s, the forces from {:.3} s to \
          {:.3} s. hint: give both the same origin of time, or choose the forces of this trial",
-        if *found == 0 { "no time".to_owned() } else { format!("only {found} frames") },
+        if *found == 0 { "no time".to_owned() } else { format!("only {}", counted(*found, "frame")) },
         motion_s[0], motion_s[1], forces_s[0], forces_s[1]
     )]
     NoCommonTime {

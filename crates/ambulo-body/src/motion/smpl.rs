@@ -151,8 +151,7 @@ pub enum SmplError {
     /// Rotations in a representation without an agreed order of its numbers.
     #[error(
         "the array `{array}` has {found} for each joint, whose order differs between programs; expected rotation \
-         vectors \
-         (3 numbers) or matrices (3 x 3). hint: convert them, as by scipy's Rotation(...).as_rotvec()"
+         vectors (3 numbers) or matrices (3 x 3). hint: convert them, as by scipy's Rotation(...).as_rotvec()"
     )]
     Representation {
         /// The array.

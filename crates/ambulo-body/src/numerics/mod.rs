@@ -10,6 +10,7 @@ mod band_cholesky;
 mod banded;
 mod cardinal_spline;
 mod cma;
+mod counted;
 pub(crate) mod dense;
 pub mod elementary;
 mod harmonics;
@@ -31,6 +32,7 @@ use serde::Deserialize;
 pub use band_cholesky::{BandFactor, BandMatrix};
 pub use cardinal_spline::{OVERLAP, quintic_splines};
 pub use cma::Cma;
+pub use counted::{counted, degrees};
 #[doc(hidden)]
 pub use dense::DenseLu;
 pub use harmonics::Harmonics;

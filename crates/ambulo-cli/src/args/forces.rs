@@ -112,7 +112,7 @@ pub(crate) struct ForcesArgs {
     /// spines; `opensim`, the model's own axes.
     #[arg(long, value_enum, default_value_t = AngleConvention::Clinical)]
     pub(crate) convention: AngleConvention,
-    /// Start of the analysed time range [s].
+    /// Start of the analysed time range [s]. With force plates, markers are fitted from one second before it on.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) from: Option<f64>,
     /// End of the analysed time range [s].

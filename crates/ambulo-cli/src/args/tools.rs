@@ -162,7 +162,7 @@ pub(crate) struct CompareArgs {
 
 The paper: Faure, Debunne, Cani, Multon 1997, Dynamic analysis of human walking. Files written to DIR:
 report.html (all results on one page; open it with `ambulo view DIR`), claims.json (each claim with its numbers
-and judgement), figures/figure1 to figure7 as .svg and .csv, muscles.csv (what net moments imply about muscles),
+and judgement), figures/figure1 to figure7 as .svg and .csv, paper_muscles.csv (what net moments imply about muscles),
 torques.csv and torques.toml (torque curves as harmonics), assumptions.csv (values that the paper does not give,
 and how other values change its claims), setting.toml (these values as a file for --setting). The results of an earlier run in DIR are replaced as a whole; other
 files stay. --keep writes only some of the files. docs/REPRODUCTION.md describes them.

@@ -247,7 +247,7 @@ impl SyntheticRun<'_> {
     /// The figure as an OpenSim model, the picture of the gait, and the torques of a controller's plan.
     fn files(&self) -> Result<Vec<OutputFile<'static>>> {
         let mut files = vec![
-            OutputFile::body(FIGURE, &self.walk.human.model)?,
+            OutputFile::body(FIGURE, &self.walk.human.model, None)?,
             gait_file(&self.walk.walk)?,
             OutputFile::new(STATES, states_csv(&self.walk.states).into_bytes()),
         ];

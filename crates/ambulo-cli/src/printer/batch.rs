@@ -1,8 +1,9 @@
 //! Prints the trials and the results of `batch`.
 
-use super::{plural, print_json, print_line, say};
+use super::{print_json, print_line, say};
 use crate::args::PrintArgs;
 use ambulo::job::trials::PlannedTrial;
+use ambulo::numerics::counted;
 use anyhow::Result;
 use serde::Serialize;
 use serde_json::json;
@@ -100,7 +101,7 @@ pub(crate) fn batch_plan(trials: &[&PlannedTrial], others: &[(String, String)], 
         let broken = trial.broken.as_ref().map_or_else(String::new, |why| format!("; {why}"));
         print_line(&format!("  {}, person {}{}{broken}", trial.name, trial.person, with.collect::<String>()))?;
     }
-    print_line(&format!("  {} trial{}", trials.len(), plural(trials.len())))?;
+    print_line(&format!("  {}", counted(trials.len(), "trial")))?;
     for (name, why) in others {
         print_line(&format!("  not {name}: {why}"))?;
     }
@@ -140,7 +141,7 @@ pub(crate) fn batch(
         let text = json!({ "counts": counts, "ranking": worst, "output": output });
         return print_json(&text);
     }
-    print_line(&format!("  computed  {} of {} trial{}", counts.computed, counts.trials, plural(counts.trials)))?;
+    print_line(&format!("  computed  {} of {}", counts.computed, counted(counts.trials, "trial")))?;
     let words = |of: &BTreeMap<String, usize>| {
         of.iter().map(|(word, count)| format!("{count} {word}")).collect::<Vec<_>>().join(", ")
     };

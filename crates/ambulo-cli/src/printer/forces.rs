@@ -6,6 +6,7 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
+use ambulo::numerics::counted;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
@@ -95,7 +96,11 @@ fn outline(summary: &Summary) -> Result<()> {
     }
     let [from, to] = summary.window_s;
     let Summary { frames, rate_hz, ground, .. } = summary;
-    print_line(&format!("  forces    {}, {from:.3} to {to:.3} s, {frames} frames at {rate_hz:.2} Hz", ground.source))?;
+    print_line(&format!(
+        "  forces    {}, {from:.3} to {to:.3} s, {} at {rate_hz:.2} Hz",
+        ground.source,
+        counted(*frames, "frame")
+    ))?;
     print_shares(ground)?;
     if let Some(comparison) = &summary.comparison {
         comparison::print_vertical(comparison)?;
@@ -123,8 +128,9 @@ fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
     let hands = hands_mm.map_or_else(String::new, |mm| format!(", a hand by at most {mm:.0} mm"));
     print_line(&format!(
         "  tracking  motion changed by {rotations_rms_deg:.1} deg{most} and {root_rms_mm:.1} mm rms{hands}, residual \
-         at most {:.3} % of body weight, {steps} steps",
-        100.0 * residual_peak
+         at most {:.3} % of body weight, {}",
+        100.0 * residual_peak,
+        counted(*steps, "step")
     ))
 }
 
@@ -145,7 +151,11 @@ fn details(summary: &Summary) -> Result<()> {
         print_line(&format!("  speed     {speed:.2} m/s"))?;
     }
     let [from, to] = summary.window_s;
-    print_line(&format!("  window    {from:.3} to {to:.3} s, {} frames at {:.2} Hz", summary.frames, summary.rate_hz))?;
+    print_line(&format!(
+        "  window    {from:.3} to {to:.3} s, {} at {:.2} Hz",
+        counted(summary.frames, "frame"),
+        summary.rate_hz
+    ))?;
     print_ground(summary)?;
     if let Some(walk) = &summary.walk {
         print_walk(walk)?;

@@ -33,6 +33,7 @@ use ambulo::analysis::feasibility::{Verdict, VerdictState};
 use ambulo::findings::{Finding, Findings, Severity};
 use ambulo::gait::Walk;
 use ambulo::gait::machine::{ChangeTable, StateChange, state_table};
+use ambulo::numerics::counted;
 use anyhow::Result;
 use std::borrow::Cow;
 use std::fmt::Arguments;
@@ -215,14 +216,10 @@ fn print_warnings(findings: &[Finding]) {
     }
     let more = [(warnings.len().saturating_sub(MOST), "warning"), (notes.len(), "note")];
     let more = more.into_iter().filter(|(count, _)| *count > 0);
-    let more: Vec<String> = more.map(|(count, kind)| format!("{count} {kind}{}", plural(count))).collect();
+    let more: Vec<String> = more.map(|(count, kind)| counted(count, kind)).collect();
     if !more.is_empty() {
         say(format_args!("{} more: use --verbose, or read them in the report", more.join(" and ")));
     }
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
 }
 
 /// A path as it is typed in a shell.
@@ -237,7 +234,7 @@ fn quoted(path: &Path) -> String {
 
 /// The number of reasons, after a state.
 fn counted_reasons(count: usize) -> String {
-    if count == 0 { String::new() } else { format!(", {count} reason{}", plural(count)) }
+    if count == 0 { String::new() } else { format!(", {}", counted(count, "reason")) }
 }
 
 /// Number of reasons that are printed; all are in summary.json.

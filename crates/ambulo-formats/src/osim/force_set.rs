@@ -24,8 +24,8 @@ impl OsimForceSet {
     /// Reads a document with a set of forces.
     ///
     /// # Errors
-    /// XML that is not well formed, a document without a `ForceSet` or without a `CoordinateActuator`, actuators without
-    /// a coordinate, numbers that are not valid.
+    /// XML that is not well formed, a document without a `ForceSet` or without a `CoordinateActuator`, actuators
+    /// without a coordinate, numbers that are not valid.
     pub fn read(bytes: &[u8]) -> Result<OsimForceSet, Error> {
         let text = xml::document_text(bytes);
         if text.trim().is_empty() {

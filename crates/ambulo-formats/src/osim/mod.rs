@@ -1,13 +1,13 @@
-//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers, bushings, markers, muscles with their paths and wrap
-//! objects, and motors at coordinates, as in the document.
+//! OpenSim models (`.osim`): bodies, joints, coordinates, couplers, bushings, markers, muscles with their paths and
+//! wrap objects, and motors at coordinates, as in the document.
 //!
 //! Document versions 20303 to 40600 are read, in both layouts: joints nested in their child body with
 //! `location_in_parent` (to 30500), and joints in a `JointSet` with offset frames (from 30505), the frames named by
 //! connectors, by `..._connectee_name` or by `socket_...` elements. Other versions are read as well, with a remark.
 //!
 //! Lengths are metres, masses kg, inertias kg.m² about the mass centre, angles radians, as the format defines them.
-//! Other elements (controllers, contact geometry, other forces; muscles and wrap objects of types that are not read) are
-//! counted in [`OsimModel::ignored`], by the tag of the element.
+//! Other elements (controllers, contact geometry, other forces; muscles and wrap objects of types that are not read)
+//! are counted in [`OsimModel::ignored`], by the tag of the element.
 
 mod bushing;
 mod constraint;

@@ -1,7 +1,8 @@
 //! Muscles, motors at coordinates and other actuators of a set of forces.
 //!
 //! Properties that a document leaves out have OpenSim's defaults (Muscle.cpp, Thelen2003Muscle.cpp,
-//! Millard2012EquilibriumMuscle.cpp and the files of its curves, read). Muscles of other types are kept by name and type.
+//! Millard2012EquilibriumMuscle.cpp and the files of its curves, read). Muscles of other types are kept by name and
+//! type.
 
 use super::frame::{Frames, socket};
 use super::path::{self, OsimPath, OsimWrapObject};
@@ -119,8 +120,8 @@ pub(super) const THELEN_SHAPE: [(&str, f64); 7] = [
     ("fv_linear_extrap_threshold", 0.95),
 ];
 pub(super) const ACTIVE_CURVE: &str = "ActiveForceLengthCurve";
-/// Properties of the active curve with their defaults; the first is the length at which the force begins, less the width
-/// of its corner.
+/// Properties of the active curve with their defaults; the first is the length at which the force begins, less the
+/// width of its corner.
 pub(super) const ACTIVE_FORCE_LENGTH: [(&str, f64); 5] = [
     ("min_norm_active_fiber_length", 0.47 - 0.0259),
     ("transition_norm_fiber_length", 0.73),

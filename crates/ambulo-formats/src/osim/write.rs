@@ -20,8 +20,8 @@ impl OsimModel {
     /// Writes a document.
     ///
     /// # Errors
-    /// Constraints other than couplers of coordinates; muscles that could not be read, muscles and wrap objects of types
-    /// that are not read; numbers that are not finite.
+    /// Constraints other than couplers of coordinates; muscles that could not be read, muscles and wrap objects of
+    /// types that are not read; numbers that are not finite.
     pub fn write(&self) -> Result<Vec<u8>, Error> {
         let constraints = self.constraints.iter().map(constraint).collect::<Result<String, Error>>()?;
         let muscles = self.muscles.as_ref().map_err(Clone::clone)?;

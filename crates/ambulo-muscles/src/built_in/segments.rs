@@ -4,6 +4,7 @@ use super::BuiltInError;
 use super::table::{Joint, Reference, Segment};
 use ambulo_body::model::anatomy::{NeutralPosture, PelvicFrame};
 use ambulo_body::model::full_body::STANDING_TILT;
+use ambulo_body::model::marker_set::{Landmark, MarkerSet};
 use ambulo_body::model::{
     BodyId, CoordinateId, Displacement, Function, Knots, Model, Movement, Side, SimmSpline, anatomy,
 };
@@ -91,7 +92,7 @@ impl Leg {
         let [right, left] = Side::BOTH.map(|side| Centres::find(model, posture, &found[side], side));
         let (right, left) = (right?, left?);
         let size = 0.5 * (right.length() + left.length()) / (reference.thigh_m + reference.shank_m);
-        let pelvis = pelvic_axes(model, reference).ok_or_else(no_legs)?;
+        let pelvis = Pelvis::find(model, reference, size).ok_or_else(no_legs)?;
         let [right, left] = [right, left].map(|centres| centres.leg(model, posture, reference, (size, &pelvis)));
         Ok([right?, left?])
     }
@@ -114,7 +115,7 @@ impl Leg {
         mirrored(self.side, place)
     }
 
-    /// A place of a segment in the neutral posture, from the hip [m], with the lengths of the person or of the reference.
+    /// A place of a segment in the neutral posture, from the hip [m], with the sizes of the person or of the reference.
     pub(super) fn neutral_place(&self, segment: Segment, place: Vec3, is_own: bool) -> Vec3 {
         let frame = self.frame(segment);
         let (origin, scale) = if is_own { (frame.origins[0], frame.scale) } else { (frame.origins[1], 1.0) };
@@ -129,13 +130,41 @@ fn mirrored(side: Side, place: Vec3) -> Vec3 {
     }
 }
 
-/// The axes of the reference's pelvis in the body of the pelvis. Where the model has markers on the iliac spines, the
-/// line through them has the direction that it has on the reference; otherwise both stand upright.
-fn pelvic_axes(model: &Model, reference: &Reference) -> Option<(BodyId, Mat3)> {
-    let by_spines = PelvicFrame::of_model(model).map(|frame| (frame, reference.spines_rad));
-    let standing = || PelvicFrame::of_built_in(model).map(|frame| (frame, STANDING_TILT));
-    let (frame, tilt) = by_spines.or_else(|_| standing()).ok()?;
-    Some((frame.pelvis, frame.axes * rotation_about(Vec3::z(), tilt)))
+/// The pelvis of the reference in a model.
+struct Pelvis {
+    body: BodyId,
+    /// The axes of the reference in the body.
+    axes: Mat3,
+    /// Size over that of the reference.
+    scale: f64,
+}
+
+impl Pelvis {
+    /// Where the model has markers on the iliac spines, the pelvis has their distance, and the line through them has
+    /// the direction that it has on the reference. Otherwise both pelves stand upright and have sizes as the legs.
+    fn find(model: &Model, reference: &Reference, of_legs: f64) -> Option<Pelvis> {
+        let tilted = |frame: PelvicFrame, tilt: f64, scale: f64| Pelvis {
+            body: frame.pelvis,
+            axes: frame.axes * rotation_about(Vec3::z(), tilt),
+            scale,
+        };
+        if let (Ok(frame), Some(distance)) = (PelvicFrame::of_model(model), spine_distance(model)) {
+            return Some(tilted(frame, reference.spines_rad, distance / reference.spines_m));
+        }
+        Some(tilted(PelvicFrame::of_built_in(model).ok()?, STANDING_TILT, of_legs))
+    }
+}
+
+/// Distance between the markers of the anterior iliac spines [m].
+fn spine_distance(model: &Model) -> Option<f64> {
+    let names = model.markers().iter().map(|marker| marker.name.as_str());
+    let known = MarkerSet::recognise(names).ok()?;
+    let place = |side: Side| {
+        let name = known.on(Landmark::Asis, Some(side))?;
+        Some(model.markers().iter().find(|marker| marker.name == name)?.location)
+    };
+    let distance = (place(Side::Right)? - place(Side::Left)?).norm();
+    (distance > SHORTEST).then_some(distance)
 }
 
 /// The joint centres of a leg in the neutral posture.
@@ -174,12 +203,12 @@ impl<'a> Centres<'a> {
         model: &Model,
         posture: &NeutralPosture,
         reference: &Reference,
-        (size, (pelvis, pelvic_axes)): (f64, &(BodyId, Mat3)),
+        (size, pelvis): (f64, &Pelvis),
     ) -> Result<Leg, BuiltInError> {
         let Centres { leg, side, hip, knee, ankle, knee_axis } = *self;
         let rotation = |body: BodyId| posture.poses[body.index()].rotation;
         let too_short = |segment| BuiltInError::Length { model: model.name().to_owned(), side, segment };
-        let pelvic = rotation(*pelvis) * pelvic_axes;
+        let pelvic = rotation(pelvis.body) * pelvis.axes;
         let knee_axis = knee_axis * knee_axis.dot(&pelvic.column(2)).signum();
         let thigh = along(hip - knee, knee_axis).ok_or_else(|| too_short("thigh"))?;
         let shank = along(knee - ankle, knee_axis).ok_or_else(|| too_short("shank"))?;
@@ -189,7 +218,10 @@ impl<'a> Centres<'a> {
         let reference_knee = thigh * Vec3::y() * -reference.thigh_m;
         let reference_ankle = reference_knee + shank * Vec3::y() * -reference.shank_m;
         let ball = foot * mirrored(side, reference.ball);
-        let own_ball = ball_center(model, posture, leg).unwrap_or(ankle + ball * size);
+        // The joint of the toes lies on the middle line of a built-in foot, to whose side the ball is not measured.
+        let lateral = foot.column(2) * (ball.dot(&foot.column(2)) * size);
+        let on_middle = |toes: Vec3| toes - foot.column(2) * (toes - ankle).dot(&foot.column(2)) + lateral;
+        let own_ball = toe_joint(model, posture, leg).map_or(ankle + ball * size, on_middle);
         let frame = |body: BodyId, axes: Mat3, scale: f64, [own, of_reference]: [Vec3; 2]| SegmentFrame {
             body,
             body_from_segment: posture.poses[body.index()].inverse() * Pose { rotation: axes, translation: own },
@@ -198,7 +230,7 @@ impl<'a> Centres<'a> {
             origins: [own - hip, of_reference],
         };
         let frames = [
-            frame(*pelvis, pelvic, size, [hip, Vec3::zeros()]),
+            frame(pelvis.body, pelvic, pelvis.scale, [hip, Vec3::zeros()]),
             frame(leg.thigh, thigh, scales[0], [hip, Vec3::zeros()]),
             frame(leg.shank, shank, scales[1], [knee, reference_knee]),
             frame(leg.foot, foot, size, [ankle, reference_ankle]),
@@ -221,7 +253,7 @@ impl<'a> Centres<'a> {
 }
 
 /// The centre of the joint of the toes [m].
-fn ball_center(model: &Model, posture: &NeutralPosture, leg: &anatomy::Leg) -> Option<Vec3> {
+fn toe_joint(model: &Model, posture: &NeutralPosture, leg: &anatomy::Leg) -> Option<Vec3> {
     let toes = leg.toes?;
     Some(posture.poses[toes.index()].place(model.bodies()[toes.index()].joint.child_from_joint.translation))
 }

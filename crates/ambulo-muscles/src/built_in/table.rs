@@ -50,8 +50,10 @@ pub(super) struct Reference {
     pub(super) shank_m: f64,
     /// Ball of the right foot from the ankle, in the axes of the foot [m].
     pub(super) ball: Vec3,
-    /// Angle by which the line through the markers of the iliac spines is lower in front than the axes of the pelvis [rad].
+    /// Angle by which the line through the markers of the iliac spines falls to the front [rad].
     pub(super) spines_rad: f64,
+    /// Distance between the markers of the anterior iliac spines [m].
+    pub(super) spines_m: f64,
 }
 
 /// A muscle of the right leg.
@@ -130,6 +132,7 @@ impl LegTable {
                 shank_m: number(&body, "shank_m")?,
                 ball: body.need("ball_m", "a place")?.vector()?,
                 spines_rad: body.need("spines_rad", "an angle")?.number()?,
+                spines_m: number(&body, "spines_m")?,
             },
             curves: ThelenCurves {
                 tendon_strain_at_max: number(&curves, "tendon_strain_at_max")?,

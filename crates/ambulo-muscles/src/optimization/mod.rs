@@ -7,14 +7,14 @@
 //!   x_j(y_j) = clip( sign(y_j) (|y_j| / (p w_j))^(1/(p - 1)) )
 //!   dual:  minimise φ(λ) = Σ h_j(y_j) - λᵀτ,   ∇φ = C x - τ,   ∇²φ = Σ (dx_j/dy_j) c_j c_jᵀ   (clipped actuators: 0)
 //!
-//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps; where a whole step passes the
-//! minimum along its direction, the step is shortened until the slope has fallen to a tenth. For p = 2, φ is piecewise
-//! quadratic: once the right actuators are free, a whole step is exact.
+//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps. A whole step that does not halve
+//! the residual is shortened, if it passes the minimum along its direction, to where the slope has fallen to a tenth.
+//! For p = 2, φ is piecewise quadratic: once the right actuators are free, a whole step is exact.
 //!
 //! The optimum x is unique, and so is the result: a start from the λ of the frame before saves steps and nothing else.
 //!
-//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or, where rounding stops the steps earlier, 1e-9
-//! of it. Coordinates that no actuator moves are left out, and their τ is unmet. If no x within the bounds gives τ, the
+//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or 1e-9 of it if two steps in a row did not halve
+//! what is left: with exponents above 2 and muscles far too weak, y is a small difference of large prices. Coordinates that no actuator moves are left out, and their τ is unmet. If no x within the bounds gives τ, the
 //! same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of multipliers): x tends to the
 //! controls with the least unmet forces, which are reported.
 //!
@@ -47,7 +47,7 @@ const MOST_STEPS: usize = 60;
 const MOST_CENTRES: usize = 12;
 /// First and further weights of a centre, relative to the diagonal of the Hessian.
 const WEIGHT: f64 = 1e3;
-/// Smallest |y| at which the slope of the controls is taken, for exponents other than 2.
+/// Below this |y|, controls with exponents other than 2 are straight, so that their slope is finite.
 const LEAST_EFFORT: f64 = 1e-14;
 
 /// What a control costs and where it may be.
@@ -66,7 +66,7 @@ pub struct Actuator {
 #[non_exhaustive]
 pub enum OptimizationError {
     /// An exponent without a unique optimum.
-    #[error("the exponent of the activations is {found}; expected more than 1 and at most 100")]
+    #[error("the exponent of the activations is {found}; expected more than 1 and at most 10")]
     Exponent {
         /// Found value.
         found: f64,
@@ -127,7 +127,7 @@ impl Optimizer {
     /// # Errors
     /// Exponents, weights and bounds without a unique optimum: see [`OptimizationError`].
     pub fn new(coordinates: usize, actuators: Vec<Actuator>, exponent: f64) -> Result<Optimizer, OptimizationError> {
-        if !(exponent > 1.0 && exponent <= 100.0) {
+        if !(exponent > 1.0 && exponent <= 10.0) {
             return Err(OptimizationError::Exponent { found: exponent });
         }
         for (index, &Actuator { low, high, weight }) in actuators.iter().enumerate() {
@@ -219,17 +219,20 @@ impl Optimizer {
 
     /// Newton's method; with a weight, near `centre`.
     fn minimise(&mut self, tau: &[f64], weight: Option<f64>) -> Convergence {
-        let mut before = f64::INFINITY;
+        let (mut before, mut best) = ([f64::INFINITY; 2], f64::INFINITY);
         self.evaluate(tau, weight);
         for iterations in 0..MOST_STEPS {
             let residual = self.residual();
-            let stalls = residual <= CLOSE_ENOUGH && residual >= 0.5 * before;
+            let stalls = residual <= CLOSE_ENOUGH && residual >= 0.5 * before[1] && before[1] >= 0.5 * before[0];
             if residual <= CLOSE || stalls {
                 return Convergence { iterations, residual, is_met: true };
             }
-            before = residual;
+            best = residual.min(best);
+            before = [before[1], residual];
             self.take_step(tau, weight);
-            self.evaluate(tau, weight);
+            if self.residual() > 0.5 * best {
+                self.shorten_step(tau, weight);
+            }
         }
         let residual = self.residual();
         Convergence { iterations: MOST_STEPS, residual, is_met: residual <= CLOSE_ENOUGH }
@@ -277,7 +280,7 @@ impl Optimizer {
         (0..self.terms.len()).map(share).fold(0.0, f64::max)
     }
 
-    /// One Newton step, shortened where it passes the minimum.
+    /// One whole Newton step.
     fn take_step(&mut self, tau: &[f64], weight: Option<f64>) {
         self.factor.clear();
         for j in 0..self.actuators.len() {
@@ -293,27 +296,39 @@ impl Optimizer {
         }
         self.factor.factor(&self.diagonal);
         self.factor.solve(&mut self.step);
+        self.move_by(1.0, tau, weight);
+    }
+
+    /// Goes back to where φ is lower, if the last step passed its minimum.
+    fn shorten_step(&mut self, tau: &[f64], weight: Option<f64>) {
         for j in 0..self.actuators.len() {
             self.step_effort[j] = self.columns.times(j, &self.step);
         }
         let share = line::share_of_step(|share| self.slope_along(share, tau, weight));
-        for (multiplier, step) in self.multipliers.iter_mut().zip(&self.step) {
-            *multiplier += share * step;
+        if share < 1.0 {
+            self.move_by(share - 1.0, tau, weight);
         }
     }
 
-    /// Slope of φ along the step, after a share of it.
+    fn move_by(&mut self, share: f64, tau: &[f64], weight: Option<f64>) {
+        for (multiplier, step) in self.multipliers.iter_mut().zip(&self.step) {
+            *multiplier += share * step;
+        }
+        self.evaluate(tau, weight);
+    }
+
+    /// Slope of φ along the last step, after a share of it.
     fn slope_along(&self, share: f64, tau: &[f64], weight: Option<f64>) -> f64 {
-        let mut slope = 0.0;
+        let (mut slope, back) = (0.0, share - 1.0);
         for (j, actuator) in self.actuators.iter().enumerate() {
             let along = self.step_effort[j];
-            let x = control(actuator, self.exponent, self.effort[j] + share * along).0;
+            let x = control(actuator, self.exponent, self.effort[j] + back * along).0;
             slope += along * x;
         }
         for row in 0..tau.len() {
             slope -= self.step[row] * tau[row];
             if let Some(weight) = weight {
-                let from_centre = self.multipliers[row] + share * self.step[row] - self.centre[row];
+                let from_centre = self.multipliers[row] + back * self.step[row] - self.centre[row];
                 slope += self.step[row] * from_centre * self.diagonal[row] / weight;
             }
         }
@@ -330,7 +345,10 @@ fn control(actuator: &Actuator, exponent: f64, y: f64) -> (f64, f64) {
     } else {
         let size = y.abs().max(LEAST_EFFORT);
         let x = powf(size / (exponent * weight), 1.0 / (exponent - 1.0));
-        (if y.abs() < LEAST_EFFORT { 0.0 } else { x.copysign(y) }, x / ((exponent - 1.0) * size))
+        match y.abs() < LEAST_EFFORT {
+            true => (x * (y / size), x / size),
+            false => (x.copysign(y), x / ((exponent - 1.0) * size)),
+        }
     };
     if x < low {
         (low, 0.0)

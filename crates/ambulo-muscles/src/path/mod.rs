@@ -1,17 +1,18 @@
 //! Paths of muscles in one posture: lengths, lengthening speeds and moment arms.
 //!
 //! A path of unit tension pulls on the bodies at the ends of its straight parts, along them. With the force f and the
-//! moment n of these pulls on the bodies beyond a joint, about its centre, and the motion (ω, v) of these bodies per unit
-//! of a generalised speed ([`ambulo_body::kinematics::JointMotion`]), the moment arm is the generalised force of the path:
+//! moment n of these pulls on the bodies beyond a joint, about its centre, and the motion (ω, v) of these bodies per
+//! unit of a generalised speed ([`ambulo_body::kinematics::JointMotion`]), the moment arm is the generalised force of
+//! the path:
 //!
 //!   r = ω · n + v · f + Σ f_point · R dp/dq          = -dL/dq       [m, or 1 for a coordinate that is a length]
 //!   dL/dt = -Σ (f_point · v_point)                                  [m/s]
 //!
-//! where p is the place of a moving point on its body and v_point contains its own motion. Pulls are summed from the ends
-//! of the body towards its root, so that nothing is differentiated. For a joint whose speeds are angular velocities the
-//! arms belong to these, as the generalised forces of inverse dynamics do. The arm about a coordinate that leads others by
-//! couplers contains theirs, Σ r dq_follower/dq_leader, so only coordinates without a leader have arms (OpenSim's
-//! `MomentArmSolver`).
+//! where p is the place of a moving point on its body and v_point contains its own motion. Pulls are summed from the
+//! ends of the body towards its root, so that nothing is differentiated. For a joint whose speeds are angular
+//! velocities the arms belong to these, as the generalised forces of inverse dynamics do. The arm about a coordinate
+//! that leads others by couplers contains theirs, Σ r dq_follower/dq_leader, so only coordinates without a leader have
+//! arms (OpenSim's `MomentArmSolver`).
 //!
 //! | code       | symbol | unit  | shape                                                      |
 //! |------------|--------|-------|------------------------------------------------------------|
@@ -22,8 +23,9 @@
 //!
 //! Source: virtual work; OpenSim 4.6, GeometryPath.cpp (`addInEquivalentForces`), ConditionalPathPoint.cpp and
 //! MovingPathPoint.cpp, read. Difference: a moving point outside the range of its coordinate stands still, also for the
-//! moment arm (OpenSim holds the place and keeps the slope); a moving point counts also if its neighbour is on the same body.
-//! Cost: linear in points and in joints between the bodies of a path. Pinned by: tests/paths.rs
+//! moment arm (OpenSim holds the place and keeps the slope); a moving point counts also if its neighbour is on the same
+//! body.
+//! Cost: linear in points and in joints between the bodies of a path. Pinned by: tests/paths.rs, tests/loads.rs
 
 mod plan;
 
@@ -212,8 +214,8 @@ impl PathWorkspace {
     }
 
     /// Adds the generalised forces of moving points of muscles with these tensions [N]: the mechanism that moves such a
-    /// point on its body takes up the work of the pull. One entry per coordinate of the model; a coordinate that follows
-    /// others has its own.
+    /// point on its body takes up the work of the pull. One entry per coordinate of the model; a coordinate that
+    /// follows others has its own.
     pub fn add_gear_forces(&self, tensions: &[f64], forces: &mut [f64]) {
         for (plan, tension) in self.plans.iter().zip(tensions) {
             for (coordinate, force) in plan.gears.iter().zip(&self.gears[plan.first_gear..]) {
@@ -264,7 +266,7 @@ impl PathWorkspace {
         let mut anchors = points.iter();
         let mut before = Vec3::zeros();
         for (i, node) in nodes.iter().enumerate() {
-            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| direction(node, next));
+            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| direction(node, next, self.rule));
             let pull = after - before;
             before = after;
             let slot = match node.surface {
@@ -325,7 +327,11 @@ impl PathWorkspace {
 }
 
 /// Unit vector from a node to the next; zero along an arc, and between nodes in one place.
-fn direction(node: &PathNode, next: &PathNode) -> Vec3 {
+fn direction(node: &PathNode, next: &PathNode, rule: WrapRule) -> Vec3 {
+    // Such a part has no effect unless its pulls are not in balance, as in OpenSim, which leaves it out.
+    if rule == WrapRule::OpenSim && node.body == next.body && node.surface.or(next.surface).is_some() {
+        return Vec3::zeros();
+    }
     match node.arc {
         Some(_) => Vec3::zeros(),
         None => (next.place - node.place).try_normalize(f64::MIN_POSITIVE).unwrap_or_default(),

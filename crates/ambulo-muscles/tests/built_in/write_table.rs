@@ -1,7 +1,7 @@
 //! The table of the muscles of a leg, from Gait2392.
 //!
-//! Points of Gait2392 are moved from the frames of its bones to segment frames that joint centres define. Its knee rolls
-//! and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given from
+//! Points of Gait2392 are moved from the frames of its bones to segment frames that joint centres define. Its knee
+//! rolls and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given from
 //! the hinge that fits the published knee best over its whole flexion: the points a of the thigh and b of the shank with
 //! the least Σ |t(θ) + R(θ) b - a|², one degree apart.
 
@@ -21,31 +21,33 @@ use std::path::Path;
 const HEADER: &str = "\
 # The 43 muscles of a right leg: paths in segment frames, and parameters.
 #
-# Source: Gait2392 (`gait2392.osim` of CEINMS-RT/LowerLimbModel, commit 4056e1c6de2276f174c1b1ef3f1de5ea017a0f07), a model
-# by D. G. Thelen, A. Seth, F. C. Anderson and S. L. Delp. Lower extremity: Delp, Loan, Hoy, Zajac, Topp, Rosen 1990. Knee:
-# Yamaguchi, Zajac 1989.
-# Licence of the model: Creative Commons Attribution 3.0 (CC BY 3.0, http://creativecommons.org/licenses/by/3.0/), stated
-# in its <credits>; licence of the repository: Apache-2.0. Carried over: points of the paths and parameters. Changed: the
-# points are in other frames (below), and so are the angles of conditional and moving points; where a range reached the
-# end of the coordinate's own range, it has no end here.
+# Source: Gait2392 (`gait2392.osim` of CEINMS-RT/LowerLimbModel, commit 4056e1c6de2276f174c1b1ef3f1de5ea017a0f07), a
+# model by D. G. Thelen, A. Seth, F. C. Anderson and S. L. Delp. Lower extremity: Delp, Loan, Hoy, Zajac, Topp, Rosen
+# 1990. Knee: Yamaguchi, Zajac 1989.
+# Licence of the model: Creative Commons Attribution 3.0 (CC BY 3.0, http://creativecommons.org/licenses/by/3.0/),
+# stated in its <credits>; licence of the repository: Apache-2.0. Carried over: points of the paths and parameters.
+# Changed: the points are in other frames (below); where the range of a conditional point reached the end of the
+# coordinate's own range, it has no end here.
 #
-# Markers of the iliac spines for `spines_rad`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml` (opensim-models).
+# Markers of the iliac spines for `spines_rad` and `spines_m`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml`
+# (opensim-models).
 #
 # Places in m, angles in rad. Axes: x forward, y up, z to the right; origins: own hip centre (pelvis, thigh), knee
-# (shank), ankle (foot), ball of the foot (toes). y of the thigh points from the knee to the hip, y of the shank from the
-# ankle to the knee. Angles: flexion of the hip and extension of the knee between these axes.
+# (shank), ankle (foot), ball of the foot (toes). y of the thigh points from the knee to the hip, y of the shank from
+# the ankle to the knee. Angles: flexion of the hip and extension of the knee from the straight leg.
 #
-# AMBULO_WRITE=1 cargo test -p ambulo-muscles write_table writes this file from shared/data/muscles/B-ceinms-lowerlimb.
+# AMBULO_WRITE=1 cargo test -p ambulo-muscles the_table_is_gait2392 writes this file from
+# shared/data/muscles/B-ceinms-lowerlimb.
 ";
 
-/// Markers of the iliac spines of Gait2392's marker set in its pelvis [m]: forward and up.
-const SPINES: [[f64; 2]; 2] = [[0.02, 0.03], [-0.16, 0.04]];
+/// Markers of the iliac spines of Gait2392's marker set in its pelvis [m]: right anterior one, and sacrum.
+const SPINES: [[f64; 3]; 2] = [[0.02, 0.03, 0.128], [-0.16, 0.04, 0.0]];
 /// Flexion over which the hinge is fitted: the whole range of Gait2392's knee [deg].
 const FLEXION_DEG: i32 = 120;
 /// An end of a range that is at least that of the coordinate, less this, is none [rad].
 const END: f64 = 1e-6;
 
-/// `muscle` files have no end of a range: half a turn.
+/// The end of a range that has none [rad].
 const NO_END: f64 = std::f64::consts::PI;
 
 /// Frames of Gait2392's right leg and the model.
@@ -130,18 +132,17 @@ impl Source {
         }
     }
 
-    /// The joint of a coordinate, and the angle between segments at its zero.
-    fn joint(&self, coordinate: &str) -> (&'static str, f64) {
-        let turn = |axes: &Mat3| atan2(axes.m21, axes.m11);
+    /// The joint of a coordinate. Its zero is the straight leg here as there.
+    fn joint(coordinate: &str) -> &'static str {
         match coordinate {
-            "hip_flexion_r" => ("hip", turn(&self.thigh)),
-            "knee_angle_r" => ("knee", turn(&self.shank) - turn(&self.thigh)),
+            "hip_flexion_r" => "hip",
+            "knee_angle_r" => "knee",
             _ => panic!("a point that follows {coordinate}"),
         }
     }
 
     fn point(&self, point: &OsimPathPoint) -> String {
-        assert!(point.frame.translation_m == [0.0; 3], "a frame of its own");
+        assert!(Vec3::from(point.frame.translation_m).norm() < f64::MIN_POSITIVE, "a frame of its own");
         match &point.place {
             OsimPointPlace::Fixed(place) => {
                 let (segment, place) = self.place(&point.frame.body, Vec3::from(*place));
@@ -150,10 +151,10 @@ impl Source {
             OsimPointPlace::Conditional { location_m, coordinate, range } => {
                 let (segment, place) = self.place(&point.frame.body, Vec3::from(*location_m));
                 let name = coordinate.as_deref().unwrap();
-                let (joint, zero) = self.joint(name);
+                let joint = Source::joint(name);
                 let own = self.model.coordinates()[self.model.coordinate(name).unwrap().index()].range.unwrap();
-                let low = if range[0] <= own[0] + END { -NO_END } else { range[0] + zero };
-                let high = if range[1] >= own[1] - END { NO_END } else { range[1] + zero };
+                let low = if range[0] <= own[0] + END { -NO_END } else { range[0] };
+                let high = if range[1] >= own[1] - END { NO_END } else { range[1] };
                 format!(
                     "{{ on = \"{segment}\", at = {}, joint = \"{joint}\", between = {} }}",
                     numbers(place.as_slice()),
@@ -165,7 +166,7 @@ impl Source {
     }
 
     fn moving(&self, bone: &str, axes: &[(Option<String>, OsimFunction); 3]) -> String {
-        let (joint, zero) = self.joint(axes[0].0.as_deref().unwrap());
+        let joint = Source::joint(axes[0].0.as_deref().unwrap());
         assert!(axes.iter().all(|(name, _)| *name == axes[0].0));
         let OsimFunction::SimmSpline(knots) = &axes[0].1 else { panic!("another function than a spline") };
         let OsimFunction::SimmSpline(of_y) = &axes[1].1 else { panic!("another function than a spline") };
@@ -178,11 +179,10 @@ impl Source {
         let spline = SimmSpline::new(Knots::new(knots.x.clone(), column(2)).unwrap()).unwrap();
         let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]);
         assert!(knots.x.windows(2).all(|x| (spline.at(middle(x))[0] - at(middle(x)).1.z).abs() < 1e-9));
-        let angles: Vec<f64> = knots.x.iter().map(|x| x + zero).collect();
         format!(
             "{{ on = \"{}\", joint = \"{joint}\", angles = {}, x = {}, y = {}, z = {} }}",
             at(0.0).0,
-            numbers(&angles),
+            numbers(&knots.x),
             numbers(&column(0)),
             numbers(&column(1)),
             numbers(&column(2))
@@ -218,6 +218,7 @@ fn table(source: &Source) -> String {
     let mut line = |words: String| writeln!(text, "{words}").unwrap();
     line(format!("thigh_m = {:?}\nshank_m = {:?}", number(source.thigh_m), number(source.shank_m)));
     line(format!("ball_m = {}\nspines_rad = {:?}", numbers(source.ball.as_slice()), number(spines)));
+    line(format!("spines_m = {:?}", number(2.0 * SPINES[0][2])));
     line("\n[curves]".to_owned());
     let words = [
         "tendon_strain_at_max",
@@ -235,8 +236,9 @@ fn table(source: &Source) -> String {
     line(format!("max_pennation_rad = {:?}", first.maximum_pennation_angle));
     for muscle in legs {
         let found = known(muscle);
-        assert!(found.curves == first.curves && found.maximum_pennation_angle == first.maximum_pennation_angle);
-        assert!(found.max_contraction_velocity == first.max_contraction_velocity && found.path.wraps.is_empty());
+        assert!(found.curves == first.curves && found.path.wraps.is_empty());
+        let shared = |known: &OsimMuscleParameters| [known.maximum_pennation_angle, known.max_contraction_velocity];
+        assert_eq!(shared(found).map(f64::to_bits), shared(first).map(f64::to_bits));
         line(format!("\n[[muscle]]\nname = \"{}\"", muscle.name.trim_end_matches("_r")));
         line(format!("force_n = {:?}\nfiber_m = {:?}", found.max_isometric_force, found.optimal_fiber_length));
         line(format!("tendon_m = {:?}", found.tendon_slack_length));

@@ -258,6 +258,22 @@ pub struct Panel {
     pub(crate) red: Vec<RedSpan>,
     /// Why there is nothing to be seen, instead of an empty box.
     pub empty: Option<String>,
+    /// What belongs to the activation of muscles; only panels of muscles have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "contract", ts(optional))]
+    pub(crate) activity: Option<Activity>,
+}
+
+/// What is known of the activity of muscles besides their computed activation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
+pub(crate) struct Activity {
+    /// Envelope of the electromyogram, mean over the cycles of a side.
+    pub measured: Vec<MeanCurve>,
+    /// Times in which the muscles of healthy adults are usually active [% of the cycle]; empty if unknown.
+    pub usual: Vec<[f64; 2]>,
+    /// Agreement of activation and electromyogram, in a sentence.
+    pub agreement: Option<String>,
 }
 
 /// A curve of one cycle.
@@ -270,8 +286,8 @@ pub(crate) struct CycleCurve {
     pub number: usize,
     /// 101 values.
     pub values: Series,
-    /// Where they stand in the files.
-    pub origin: Origin,
+    /// Where they stand in the files; nothing for a value of several columns.
+    pub origin: Option<Origin>,
 }
 
 /// The mean over the cycles of a side.
@@ -492,6 +508,10 @@ pub struct View {
     pub(crate) torques: Vec<ViewTorque>,
     /// Points of the soles.
     pub(crate) contacts: Vec<ViewContact>,
+    /// Muscles, if the run computed them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "contract", ts(optional))]
+    pub(crate) muscles: Option<Vec<ViewMuscle>>,
     /// Height of the floor [m]; a grid is drawn there.
     pub floor_m: f64,
     /// Weight of the figure [N], for the length of the arrows.
@@ -603,6 +623,30 @@ pub(crate) struct ViewContact {
     pub place: [f64; 3],
     /// Whose side.
     pub side: Option<PageSide>,
+}
+
+/// A muscle: a line through points of bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
+pub(crate) struct ViewMuscle {
+    /// Its name in the model: `soleus_r`.
+    pub name: String,
+    /// Whose side.
+    pub side: Option<PageSide>,
+    /// Points of its path from origin to insertion.
+    pub points: Vec<ViewPathPoint>,
+    /// Its activation, 0 to 1.
+    pub activation: Series,
+}
+
+/// A point of a muscle's path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
+pub(crate) struct ViewPathPoint {
+    /// Place in `bodies`.
+    pub body: usize,
+    /// In this body's axes [m].
+    pub place: [f64; 3],
 }
 
 /// The live page of a stream; indices refer to the values of a [`LiveFrame`].

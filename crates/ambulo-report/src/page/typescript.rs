@@ -38,6 +38,7 @@ fn curves(config: &Config) -> Vec<String> {
     vec![
         Group::decl(config),
         Panel::decl(config),
+        Activity::decl(config),
         CycleCurve::decl(config),
         MeanCurve::decl(config),
         Band::decl(config),
@@ -73,6 +74,8 @@ fn views(config: &Config) -> Vec<String> {
         ViewForce::decl(config),
         ViewTorque::decl(config),
         ViewContact::decl(config),
+        ViewMuscle::decl(config),
+        ViewPathPoint::decl(config),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 use super::joint_places::JointPlaces;
 use super::limb::{dot, limb};
+use super::muscle;
 use super::part::Part;
 use super::path::BodyPath;
 use super::{ForceRole, Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
@@ -11,9 +12,12 @@ use ambulo::kinematics::{Trajectory, each_body_motion};
 use ambulo::model::anthropometry::Dimensions;
 use ambulo::model::{BodyId, Model};
 use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
+use ambulo::muscles::set::MuscleSet;
+use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_results::{
-    BODIES, Folder, GROUND, GROUND_MEASURED, KINEMATICS, MOMENTS, ResultsError, RunSummary, Summary, error_chain,
+    BODIES, Folder, GROUND, GROUND_MEASURED, KINEMATICS, MOMENTS, MUSCLES, ResultsError, RunSummary, SUBJECT, Summary,
+    error_chain,
 };
 
 /// The model and its motion in a folder.
@@ -65,6 +69,12 @@ impl Stage {
         if let Some(moments) = same_rows(folder, MOMENTS, rows)? {
             stage.torques = torque::torques(&model, &moments, summary.mass_kg);
         }
+        if let Some(activations) = same_rows(folder, MUSCLES, rows)? {
+            match muscle_set(folder, &model)? {
+                Ok(set) => stage.muscles = muscle::muscles(&model, &set, &activations),
+                Err(reason) => stage.missing.push(reason),
+            }
+        }
         stage.floor_m = floor::height(&stage.plates, &stage.forces, &stage.bodies, &stage.contacts);
         stage.put_soles_on_the_floor(&model, summary.height_m);
         stage.defect().map_or(Ok(Ok(stage)), |reason| Err(folder.unreadable(KINEMATICS, reason)))
@@ -108,11 +118,22 @@ impl Stage {
             forces: Vec::new(),
             torques: Vec::new(),
             contacts,
+            muscles: Vec::new(),
             floor_m,
             weight_n: model.mass() * model.gravity().norm(),
             missing: Vec::new(),
         }
     }
+}
+
+/// The muscles in the body of a run, or why there are none.
+fn muscle_set(folder: &Folder<'_>, model: &Model) -> Result<Result<MuscleSet, String>, ResultsError> {
+    let Some(text) = folder.text(SUBJECT)? else {
+        return Ok(Err(format!("No muscles in the figure: the folder has no {SUBJECT}.")));
+    };
+    let document = OsimModel::read(text.as_bytes()).map_err(|error| folder.refused(SUBJECT, &error))?;
+    let set = MuscleSet::of_document(&document, model, &mut Findings::default());
+    Ok(set.map_err(|error| format!("No muscles in the figure: {SUBJECT}: {}.", error_chain(&error))))
 }
 
 /// Shapes of the bodies of a model, in their own axes.

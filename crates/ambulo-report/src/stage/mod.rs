@@ -12,6 +12,7 @@ mod foot;
 mod ground_plane;
 mod joint_places;
 mod limb;
+mod muscle;
 mod part;
 pub(crate) mod path;
 mod person;
@@ -47,6 +48,8 @@ pub struct Stage {
     pub torques: Vec<StageTorque>,
     /// Points of the soles.
     pub contacts: Vec<StageContact>,
+    /// Muscles with their activation.
+    pub muscles: Vec<StageMuscle>,
     /// Height of the floor [m].
     pub floor_m: f64,
     /// Weight of all bodies [N].
@@ -142,6 +145,19 @@ pub struct StageContact {
     pub place: Vec3,
     /// Side of the sole.
     pub side: Option<Side>,
+}
+
+/// A muscle as a line through points of bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StageMuscle {
+    /// Name in the model.
+    pub name: String,
+    /// Side of the muscle.
+    pub side: Option<Side>,
+    /// Index in `bodies`, and place in the axes of this body [m], from origin to insertion.
+    pub points: Vec<(usize, Vec3)>,
+    /// Activation, one entry per instant.
+    pub activation: Vec<f64>,
 }
 
 /// A cylinder with round ends.

@@ -41,6 +41,7 @@ impl Stage {
             forces: Vec::new(),
             torques: Vec::new(),
             contacts: Vec::new(),
+            muscles: Vec::new(),
             floor_m: 0.0,
             missing: kept.missing,
         };

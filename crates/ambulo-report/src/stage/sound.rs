@@ -36,7 +36,11 @@ impl Stage {
         });
         let contact = self.contacts.iter().find_map(|contact| unsound(&contact.place));
         let contact = contact.map(|number| refused("a point of a sole", number));
-        corner.or(axis).or(contact).or_else(|| shapes_defect("an obstacle", &self.fixed))
+        let muscle = self.muscles.iter().find_map(|muscle| {
+            let number = muscle.points.iter().find_map(|(_, place)| unsound(place))?;
+            Some(refused(&format!("a point of the muscle `{}`", muscle.name), number))
+        });
+        corner.or(axis).or(contact).or(muscle).or_else(|| shapes_defect("an obstacle", &self.fixed))
     }
 }
 

@@ -87,8 +87,7 @@ fn project_velocities(
         Code::StartContradictory,
         format!(
             "the initial velocities contradict the joints, most at `{}`; the nearest ones by mass are used: kinetic \
-             energy \
-             {after:.4} J instead of {before:.4} J",
+             energy {after:.4} J instead of {before:.4} J",
             world.bodies[most].name
         ),
     );

@@ -36,8 +36,7 @@ fn check_order(curve: &CyclicCurve, speed: f64) -> Result<(), CurveFault> {
             let [before, here] = [before, here].map(|phase| 100.0 * phase);
             let message = format!(
                 "found {here:.1} % after {before:.1} % at dimensionless speed {speed:.3}; expected knots in the order \
-                 of \
-                 their times, at least {} % apart, within one cycle",
+                 of their times, at least {} % apart, within one cycle",
                 100.0 * CLOSEST_KNOTS
             );
             return Err(CurveFault { knot: k % curve.knots().len(), message });

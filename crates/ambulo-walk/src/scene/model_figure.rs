@@ -316,8 +316,7 @@ impl FigureAssembly<'_> {
         let advice = if of_root { "root = \"driven\"" } else { "drive all coordinates of the joint, or none" };
         let message = format!(
             "found the joint `{}` of the model free to move, but {why}; expected one that is driven, or rotates about \
-             one \
-             axis, two perpendicular axes or three, translates along one axis, is planar, or is free",
+             one axis, two perpendicular axes or three, translates along one axis, is planar, or is free",
             body.joint.name
         );
         place.error(message).hint(advice)

@@ -9,6 +9,7 @@ use crate::functional::{FunctionalHip, FunctionalKnee, functional_joints};
 use crate::kinematics::calibration::JointCentres;
 use crate::model::full_body::STANDING_TILT;
 use crate::model::{BySide, Side};
+use crate::numerics::degrees;
 use crate::spatial::{Vec3, rotation_about};
 
 /// The joint centres and axes that a movement of the person shows, beside the choices that were stated; findings say
@@ -61,10 +62,11 @@ fn hip(body: &Subject, side: Side, found: &Result<FunctionalHip, String>, findin
     let message = format!(
         "the movement shows the centre of the {side} hip {:.0} mm from that of the regression `{}` ({x:.0} forward, \
          {y:.0} up, {z:.0} to the right), with a standard error of {:.0} mm; the thigh moved over {most:.0} and \
-         {least:.0} degrees, its markers are {:.0} mm from a ball joint",
+         {}, its markers are {:.0} mm from a ball joint",
         1e3 * apart.norm(),
         hips.method,
         1e3 * found.error_m,
+        degrees(least),
         1e3 * found.residual_m
     );
     findings.report(Code::CalibrationMovement, message);
@@ -76,10 +78,10 @@ fn knee(side: Side, found: &Result<FunctionalKnee, String>, findings: &mut Findi
     match found {
         Ok(found) => {
             let message = format!(
-                "the movement shows the axis of the {side} knee {:.0} degrees from that of the markers, about the long \
-                 axis of the thigh; the knee bent by {:.0} degrees, and turned by {:.0} about other axes",
-                found.turn_rad.to_degrees(),
-                found.range_rad.to_degrees(),
+                "the movement shows the axis of the {side} knee {} from that of the markers, about the long axis of \
+                 the thigh; the knee bent by {}, and turned by {:.0} about other axes",
+                degrees(found.turn_rad.to_degrees()),
+                degrees(found.range_rad.to_degrees()),
                 found.off_rad.to_degrees()
             );
             findings.report(Code::CalibrationMovement, message);

@@ -6,12 +6,16 @@ use crate::functional::{CrossTalk, knee_cross_talk};
 use crate::kinematics::calibration::KneeAxis;
 use crate::model::{BySide, Side};
 use crate::motion::MarkerRecording;
+use crate::numerics::degrees;
 
-/// Cross-talk is large if varus follows flexion with this r², ranges over more than this [rad], and a turn of the
-/// knee's axis by more than this [rad] explains it: the sine of 15 degrees puts a quarter of the flexion moment into
-/// varus.
+/// Cross-talk is large if all three limits are exceeded: each alone has other causes.
+///
+/// r² of varus and flexion: varus of a knee that is measured well does not follow its flexion.
 const LARGE_R2: f64 = 0.8;
+/// Range of varus [rad]: soft tissue and the knee itself make some of it, too.
 const LARGE_VARUS: f64 = 15.0 * std::f64::consts::PI / 180.0;
+/// Turn of the knee's axis that explains it [rad]: an axis that is wrong by this angle puts its sine, a third, of the
+/// flexion moment into the frontal plane.
 const LARGE_TURN: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Largest turn of a knee axis by the least cross-talk [rad]: more is no axis that was palpated wrongly.
 const MOST_TURN: f64 = 30.0 * std::f64::consts::PI / 180.0;
@@ -47,17 +51,16 @@ fn least_turn(body: &Subject, moving: &MarkerRecording, side: Side, findings: &m
     let turn = found.map(|cross_talk| cross_talk.turn_rad).filter(|turn| turn.abs() <= MOST_TURN);
     let message = match (found, turn) {
         (Some(cross_talk), Some(turn)) => format!(
-            "the axis of the {side} knee was turned by {:.0} degrees about the long axis of the thigh, so that varus \
-             follows flexion least; before, it ranged over {:.0} degrees (r {:.2})",
-            turn.to_degrees(),
-            cross_talk.varus_range_rad.to_degrees(),
+            "the axis of the {side} knee was turned by {} about the long axis of the thigh, so that varus follows flexion \
+             least; before, it ranged over {} (r {:.2})",
+            degrees(turn.to_degrees()),
+            degrees(cross_talk.varus_range_rad.to_degrees()),
             cross_talk.r
         ),
         (Some(cross_talk), None) => format!(
-            "the axis of the {side} knee would have to be turned by {:.0} degrees for the least cross-talk; expected \
-             at \
-             most {:.0}: that of the markers was kept",
-            cross_talk.turn_rad.abs().to_degrees(),
+            "the axis of the {side} knee would have to be turned by {} for the least cross-talk; expected at most \
+             {:.0}: that of the markers was kept",
+            degrees(cross_talk.turn_rad.abs().to_degrees()),
             MOST_TURN.to_degrees()
         ),
         (None, _) => format!(
@@ -81,13 +84,12 @@ pub(super) fn cross_talk(
             found.r * found.r >= LARGE_R2 && found.varus_range_rad > LARGE_VARUS && found.turn_rad.abs() > LARGE_TURN;
         if is_large {
             let message = format!(
-                "varus of the {side} knee follows its flexion (r {:.2}) and ranges over {:.0} degrees, as if the axis \
-                 of the markers were {:.0} degrees from that of the knee: moments of the frontal plane contain a part \
-                 of \
-                 those of the sagittal plane",
+                "varus of the {side} knee follows its flexion (r {:.2}) and ranges over {}, as if the axis of the \
+                 markers were {} from that of the knee: moments of the frontal plane contain a part of those of the \
+                 sagittal plane",
                 found.r,
-                found.varus_range_rad.to_degrees(),
-                found.turn_rad.abs().to_degrees()
+                degrees(found.varus_range_rad.to_degrees()),
+                degrees(found.turn_rad.abs().to_degrees())
             );
             findings.report(Code::CalibrationCrossTalk, message);
         }

@@ -27,7 +27,7 @@ use crate::kinematics::pose_fit::{PoseRecording, fit_poses};
 use crate::model::marker_set::MarkerSet;
 use crate::model::{BySide, Drive, Model, Side};
 use crate::motion::force_plate::PlateRecording;
-use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses};
+use crate::motion::{Event, ForceRecording, MarkerRecording, Motion, SegmentPoses, Window};
 use crate::motion::{Laboratory, Landmarks};
 
 /// A body with the motion that was fitted to markers.
@@ -71,6 +71,8 @@ pub struct MarkerTrial<'a> {
     pub body: BodySource<'a>,
     /// Plates (by index) whose foot is given.
     pub plate_feet: &'a [(usize, Side)],
+    /// The time in which markers are fitted. The body is made from all of the recording.
+    pub window: Window,
 }
 
 /// Fits a body to a recording of markers.
@@ -110,6 +112,10 @@ pub(crate) fn fit_body_to_markers(
     let subject = trial.subject(moving, standing.as_ref(), findings)?;
     progress.end(Stage::Body)?;
     let settings = settings_of(&subject, settings);
+    let (markers, plates) = match &keypoints {
+        Some(_) => (markers, plates),
+        None => within(markers, plates, trial.window),
+    };
     let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
     let recorded_markers = report_use(&subject, &fit, (&followed, set), findings);
     if let (Some(standing), None) = (&standing, &keypoints) {
@@ -355,6 +361,22 @@ impl BodyInMotion {
     pub fn plate_forces(&self) -> Vec<ForceRecording> {
         self.subject.model.anatomy().feet().map_or_else(Vec::new, |feet| self.on_plates.recordings(&self.plates, feet))
     }
+}
+
+/// Markers and plates in a range of time; all of them if it is not inside of the recording.
+fn within(
+    markers: MarkerRecording,
+    plates: Vec<PlateRecording>,
+    Window { from_s, to_s }: Window,
+) -> (MarkerRecording, Vec<PlateRecording>) {
+    let first = from_s.map_or(0, |from_s| markers.times.partition_point(|time| *time < from_s));
+    let end = to_s.map_or(markers.frames(), |to_s| markers.times.partition_point(|time| *time <= to_s));
+    if first >= end || (first, end) == (0, markers.frames()) {
+        return (markers, plates);
+    }
+    let range_s = [markers.times[first], markers.times[end - 1]];
+    let plates = plates.into_iter().map(|plate| plate.within(range_s)).collect();
+    (markers.part(first..end), plates)
 }
 
 /// The recording without beginning and end where less than half of the markers are visible.

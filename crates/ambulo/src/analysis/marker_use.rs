@@ -1,11 +1,15 @@
 //! Which markers of a motion the body follows: those that its calibration knows, and those that move with a segment.
 
-use super::subject::Subject;
+use super::laboratory_recording::LaboratoryRecording;
+use super::subject::{BodySource, Subject};
 use crate::findings::{Code, Findings};
+use crate::kinematics::calibration::{BodyMeasurements, PersonMeasurements};
 use crate::kinematics::marker_fit::MarkerFit;
+use crate::model::anthropometry::SegmentTable;
 use crate::model::marker_set::{MarkerSet, NamedMarker, RecognisedMarkers};
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
+use crate::numerics::counted;
 use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
 
 /// Of the markers of a motion, a body should follow at least this share [1].
@@ -16,6 +20,35 @@ const OF_A_POSE: usize = 3;
 const AT_JOINT: f64 = 1.0;
 /// Most names in a message.
 const MOST_NAMES: usize = 12;
+
+/// The markers of a motion, without points that a program computed from others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MarkerUse {
+    /// Names of those that the body follows.
+    pub used: Vec<String>,
+    /// Names of the others.
+    pub unused: Vec<String>,
+}
+
+/// The markers that the built-in body follows if it is calibrated from the motion itself: those with known names, and
+/// those that move with a segment. `None` for points of video, and for markers that do not suffice for a body.
+#[must_use]
+pub fn marker_use(recording: &LaboratoryRecording) -> Option<MarkerUse> {
+    /// No marker depends on the mass.
+    const ANY_MASS_KG: f64 = 70.0;
+    let mut unheard = Findings::default();
+    let moving = recording.in_world(&mut unheard).1.markers.trimmed_to_visible();
+    let named = named(&moving, None)?;
+    let measurements = BodyMeasurements::default();
+    let person = PersonMeasurements { table: SegmentTable::DeLevaMale, mass: ANY_MASS_KG, height: None, measurements };
+    let body = BodySource::BuiltIn { person: &person, set: None };
+    let subject = Subject::of_source(&body, &moving, None, &mut unheard).ok()?;
+    let subject = subject.with_technical_markers(None, &moving, None, &mut unheard);
+    let is_used = |name: &&str| subject.model.markers().iter().any(|marker| marker.name == *name);
+    let (used, unused): (Vec<&str>, Vec<&str>) = recorded(&moving, &named).into_iter().partition(is_used);
+    let [used, unused] = [used, unused].map(|names| names.into_iter().map(str::to_owned).collect());
+    Some(MarkerUse { used, unused })
+}
 
 impl Subject {
     /// The body with the markers of the motion that it does not have yet, on the segments with which they move. A given
@@ -53,7 +86,8 @@ impl Subject {
         let recorded = recorded(moving, named);
         let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
         let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
-        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64 && hardly_shown(self, &followed).next().is_none()
+        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64
+            && hardly_shown(self, &followed).next().is_none()
     }
 }
 
@@ -71,9 +105,10 @@ fn report_found(subject: &Subject, found: &[(Marker, f64)], findings: &mut Findi
         let body = marker.body.map_or("ground", |body| &bodies[body.index()].name);
         format!("`{}` on `{body}`", marker.name)
     };
-    let markers = if found.len() == 1 { "1 marker was".to_owned() } else { format!("{} markers were", found.len()) };
+    let were = if found.len() == 1 { "was" } else { "were" };
+    let markers = counted(found.len(), "marker");
     let listed = listed(found.iter().map(shown));
-    let message = format!("{markers} given to the segments by how they move: {listed}");
+    let message = format!("{markers} {were} given to the segments by how they move: {listed}");
     findings.report(Code::MarkersByMotion, message);
 }
 
@@ -130,8 +165,7 @@ fn hardly_shown(subject: &Subject, followed: &[&str]) -> impl Iterator<Item = St
         let own: Vec<&Marker> = markers_of(subject, body).filter(|m| followed.contains(&m.name.as_str())).collect();
         let weight = |marker: &Marker| subject.weights.get(&marker.name).copied().unwrap_or(AT_JOINT);
         let is_enough = own.len() >= OF_A_POSE || own.iter().any(|marker| weight(marker) >= AT_JOINT);
-        let count = if own.len() == 1 { "1 marker".to_owned() } else { format!("{} markers", own.len()) };
-        (!is_enough).then(|| format!("the {side} {name} ({count})"))
+        (!is_enough).then(|| format!("the {side} {name} ({})", counted(own.len(), "marker")))
     })
 }
 

@@ -50,7 +50,7 @@ pub use laboratory_recording::LaboratoryRecording;
 pub use marker_trial::MarkerTrial;
 pub(crate) use marker_trial::fit_body_to_markers;
 pub use marker_trial::{BodyInMotion, body_in_motion};
-pub use marker_use::LEAST_MARKER_SHARE;
+pub use marker_use::{LEAST_MARKER_SHARE, MarkerUse, marker_use};
 pub use peaks::{Peak, peak};
 pub use predicted::analyse_predicted_trajectory;
 #[doc(hidden)]

@@ -10,6 +10,7 @@ use crate::findings::{Code, Findings};
 use crate::model::Model;
 use crate::motion::filter::LowPass;
 use crate::motion::{Smoother, TimeGrid, Window};
+use crate::numerics::counted;
 use serde::Deserialize;
 
 /// The parts of a study that residual reduction may change.
@@ -59,8 +60,8 @@ pub(crate) fn reduce_residual(
     let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, &mut found)?;
     if !done.converged {
         let message = format!(
-            "residual reduction did not converge in {} iterations; the motion was not changed",
-            done.iterations
+            "residual reduction did not converge in {}; the motion was not changed",
+            counted(done.iterations, "iteration")
         );
         findings.report(Code::ConsistencyNotSettled, message);
         return Ok((analysis, None));

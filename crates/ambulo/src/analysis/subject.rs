@@ -1,7 +1,7 @@
 //! The body that is fitted to markers, and its sources: a model, a marker set, a protocol or a standing trial.
 
 use super::feasibility::Person;
-use super::identity::completed;
+use super::identity::{completed, completed_for_model};
 use super::laboratory_recording::LaboratoryRecording;
 use super::progress::Stopped;
 use crate::findings::{Code, Findings};
@@ -76,7 +76,10 @@ impl<'a> BodySource<'a> {
     ) -> Option<MarkerRecording> {
         match self {
             BodySource::BuiltIn { person, set } => completed(standing, moving, person, *set, findings),
-            BodySource::Model { .. } | BodySource::Calibrated(_) => None,
+            BodySource::Model { model, mass, protocol: None } => {
+                completed_for_model(standing, moving, (model, *mass), findings)
+            }
+            BodySource::Model { protocol: Some(_), .. } | BodySource::Calibrated(_) => None,
         }
     }
 

@@ -83,7 +83,10 @@ impl Job {
             return refused(Field::Condyles, what);
         }
         if let Some((name, weight)) = muscles.weights.iter().find(|(_, w)| !(w.is_finite() && **w > 0.0)) {
-            return refused(Field::Muscles, format!("found the weight {weight} of `{name}`; expected a number above 0"));
+            return refused(
+                Field::Muscles,
+                format!("found the weight {weight} of `{name}`; expected a number above 0"),
+            );
         }
         Ok(())
     }

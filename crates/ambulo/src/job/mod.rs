@@ -40,6 +40,7 @@ mod kind;
 mod laboratory;
 mod markers;
 mod model_file;
+mod muscle_reading;
 mod muscles;
 mod read_once;
 mod reading;
@@ -73,6 +74,7 @@ use crate::findings::Findings;
 use crate::kinematics::calibration::{HipRegression, KneeAxis};
 use crate::model::anthropometry::SegmentTable;
 use crate::study::{AddedMass, StatedSize, TrackedTasks};
+use ambulo_formats::osim::OsimModel;
 use read_once::{Models, StandingTrials};
 use serde::Deserialize;
 use setup::Setups;
@@ -202,6 +204,8 @@ struct Reading<'a> {
     read: Vec<PathBuf>,
     ground: Option<PathBuf>,
     setups: Setups,
+    /// The model in the recording, where its muscles are asked for.
+    own_model: Option<OsimModel>,
     /// Weights of the fit of markers that a set-up states.
     tracked: Option<TrackedTasks>,
 }
@@ -271,7 +275,8 @@ impl Job {
         let others = [&self.recording, &self.standing, &self.marker_set, &self.smpl, table, loads];
         let more = [&self.person, &self.device, &self.thresholds, &self.functional];
         let of_muscles = self.muscles.iter().flat_map(|muscles| [&muscles.reserves, &muscles.emg]);
-        let files = others.into_iter().chain(more).chain(of_muscles).flatten().chain(&self.setups).map(PathBuf::as_path);
+        let files =
+            others.into_iter().chain(more).chain(of_muscles).flatten().chain(&self.setups).map(PathBuf::as_path);
         files.chain(self.model_file()).chain(self.markers.as_deref().map(Path::new))
     }
 

@@ -5,7 +5,8 @@ use super::files::{Files, read_table};
 use super::kind::RecordingKind;
 use super::setup::Setups;
 use super::{
-    Job, Reading, Shared, coordinates, markers, sensors, settings, setup, size, skeleton, study_error, subject,
+    Job, Reading, Shared, coordinates, markers, muscle_reading, sensors, settings, setup, size, skeleton, study_error,
+    subject,
 };
 use crate::analysis::Stage;
 use crate::findings::Findings;
@@ -64,6 +65,7 @@ impl Job {
             read: Vec::new(),
             ground: None,
             setups: Setups::default(),
+            own_model: None,
             tracked: None,
         };
         let job = setup::resolved(self, &mut reading)?;
@@ -89,7 +91,8 @@ impl Job {
         };
         let device =
             self.device.as_deref().map(|path| read_table(reading.files, path, reading.findings)).transpose()?;
-        let mut source = Source { device, ..source };
+        let muscles = muscle_reading::read(self, reading)?;
+        let mut source = Source { device, muscles, ..source };
         if let (Recording::Markers(markers), Some(body)) = (&mut source.recording, &shared.body) {
             markers.body = MarkerBody::Calibrated(Box::new(body.clone()));
         }

@@ -32,6 +32,9 @@ pub(super) fn located(error: StudyError, job: &Job, ground: Option<&Path>) -> Jo
         (_, StudyError::UnknownBody { .. } | StudyError::AddedMass(_)) => about(Field::AddedMass, error),
         (_, StudyError::ResidualReduction(_)) => about(Field::ResidualReduction, error),
         (_, StudyError::Tracking(_)) => about(Field::Ground, error),
+        (_, StudyError::MuscleSet(_) | StudyError::BuiltInMuscles(_) | StudyError::Muscles(_)) => {
+            about(Field::Muscles, error)
+        }
         (Some(Input::StandingTrial), _) => {
             JobError::new(&[], error).within(job.standing.as_deref().map_or(motion, shown))
         }

@@ -7,6 +7,7 @@ use super::{Job, Reading, markers};
 use crate::motion::B3dTrial;
 use crate::study::Source;
 use ambulo_formats::b3d::{Header, LENGTH_BYTES};
+use ambulo_formats::osim::OsimModel;
 use std::path::Path;
 
 /// Description of the expected file.
@@ -31,6 +32,10 @@ pub(super) fn read(job: &Job, reading: &mut Reading<'_>) -> Result<Source, JobEr
     (reading.progress)("read_trial");
     let name = format!("{shown}, trial {}", header.trials[trial].name);
     let of_file = B3dTrial { header: &header, trial, frames: &frames, name: &name };
+    if job.muscles.is_some() && job.model.is_none() {
+        let text = of_file.model_text().at(name.clone())?;
+        reading.own_model = Some(OsimModel::read(text.as_bytes()).at(name.clone())?);
+    }
     let window = job.settings.window;
     let source = match job.model {
         None => Source::of_b3d(&of_file, window, reading.findings),

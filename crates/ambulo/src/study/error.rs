@@ -8,6 +8,9 @@ use crate::kinematics::sensor_fit::SensorError;
 use crate::model::anthropometry::BuildError;
 use crate::model::{ModelError, ScaleError};
 use crate::motion::MotionError;
+use crate::muscles::MuscleError;
+use crate::muscles::built_in::BuiltInError;
+use crate::muscles::settings::SolverError;
 use crate::optimal::TrackError;
 
 /// Why a study gives no forces. [`StudyError::input`] names the part of the source that caused it.
@@ -92,6 +95,15 @@ pub enum StudyError {
     /// A motion that feet on the ground cannot make, or that is not supported.
     #[error(transparent)]
     Tracking(#[from] TrackError),
+    /// Muscles that are not those of the body, or motors at coordinates that it does not have.
+    #[error(transparent)]
+    MuscleSet(#[from] MuscleError),
+    /// The built-in muscles do not fit the body.
+    #[error(transparent)]
+    BuiltInMuscles(#[from] BuiltInError),
+    /// Settings of muscle forces that are not possible.
+    #[error(transparent)]
+    Muscles(#[from] SolverError),
     /// The observer stopped the run.
     #[error(transparent)]
     Stopped(#[from] Stopped),
@@ -134,6 +146,9 @@ impl StudyError {
             | StudyError::Body(_)
             | StudyError::Size(_)
             | StudyError::ResidualReduction(_)
+            | StudyError::MuscleSet(_)
+            | StudyError::BuiltInMuscles(_)
+            | StudyError::Muscles(_)
             | StudyError::Stopped(_) => None,
         }
     }

@@ -42,12 +42,13 @@ impl LoadSource {
     }
 }
 
-/// The knee adduction moment of one leg.
+/// A quantity over the stances of one leg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LegStances {
     /// Where the loads of all these stances come from.
     pub source: LoadSource,
-    /// First peak [N.m/kg], second peak [N.m/kg] and impulse [N.m.s/kg] of each whole stance.
+    /// First peak, second peak and impulse of each whole stance: of the knee adduction moment [N.m/kg, N.m/kg,
+    /// N.m.s/kg], of the load of a joint [body weights, body weights, body weights x s].
     pub stances: Vec<[f64; 3]>,
 }
 
@@ -61,17 +62,24 @@ impl Outcome {
         let moments = analysis.joint_moments(model);
         let movement = Movement::KneeAdduction;
         BySide::from_fn(|side| {
-            let (source, spans) = self.whole_stances(analysis, side);
-            if model.anatomy().is_any_above(&self.not_measured, movement, side) {
-                return LegStances { source, stances: Vec::new() };
-            }
-            let of_stance = |[start_s, end_s]: [f64; 2]| {
-                let stance = Cycle { side, number: 1, start_s, end_s, foot_off_s: None };
-                let adducting = |frame| moments.at(movement, side, frame).map_or(f64::NAN, |m| -m / analysis.mass.kg);
-                stance_load(&over_cycle_of(analysis.trajectory.grid(), adducting, &stance), end_s - start_s)
-            };
-            LegStances { source, stances: spans.into_iter().filter_map(of_stance).collect() }
+            let is_unknown = model.anatomy().is_any_above(&self.not_measured, movement, side);
+            self.over_stances(side, |frame| {
+                let moment = moments.at(movement, side, frame).filter(|_| !is_unknown);
+                moment.map_or(f64::NAN, |moment| -moment / analysis.mass.kg)
+            })
         })
+    }
+
+    /// First peak, second peak and impulse of a quantity over each whole stance of a leg; `value` is the quantity at a
+    /// frame of [`Outcome::complete`], not a number where it is not known.
+    pub(super) fn over_stances(&self, side: Side, value: impl Fn(usize) -> f64) -> LegStances {
+        let analysis = self.complete();
+        let (source, spans) = self.whole_stances(analysis, side);
+        let of_stance = |[start_s, end_s]: [f64; 2]| {
+            let stance = Cycle { side, number: 1, start_s, end_s, foot_off_s: None };
+            stance_load(&over_cycle_of(analysis.trajectory.grid(), &value, &stance), end_s - start_s)
+        };
+        LegStances { source, stances: spans.into_iter().filter_map(of_stance).collect() }
     }
 
     /// Foot strike and foot off of the stances of a leg that count [s], and the source of their loads.

@@ -8,6 +8,7 @@ use crate::motion::{
     events_from_c3d, events_from_mvnx, markers_from_table, markers_from_trc, motion_from_c3d, segment_poses_from_mvnx,
     subject_from_c3d,
 };
+use crate::numerics::counted;
 use crate::spatial::Vec3;
 use ambulo_formats::c3d::C3d;
 use ambulo_formats::mvnx::Mvnx;
@@ -171,8 +172,11 @@ impl LaboratoryFile {
         drop(bytes);
         report_remarks(label, &remarks, findings);
         let poses = segment_poses_from_mvnx(&mvnx, findings)?;
-        let message =
-            format!("poses of {} segments of Xsens MVN drive the body ({})", poses.segments.len(), poses.statement);
+        let message = format!(
+            "poses of {} of Xsens MVN drive the body ({})",
+            counted(poses.segments.len(), "segment"),
+            poses.statement
+        );
         findings.report(Code::PosesUsed, message);
         let markers = poses.points(label);
         let recording = LaboratoryRecording { markers, poses: Some(poses), plates: Vec::new(), unit: "m".to_owned() };

@@ -19,6 +19,7 @@
 mod b3d_source;
 mod error;
 mod events;
+mod fitted_range;
 pub(crate) mod force_columns;
 mod force_directions;
 mod force_filter;
@@ -30,6 +31,7 @@ mod laboratory_file;
 pub(crate) mod mass;
 mod measured;
 mod misfits;
+mod muscles;
 mod not_measured;
 mod observation;
 mod opensim_setup;
@@ -65,6 +67,7 @@ pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 #[doc(hidden)]
 pub use mass::MassEstimate;
 pub use mass::{BodyMass, MassState, MassWitness};
+pub use muscles::{ModelMuscles, MuscleOutcome, MuscleRequest, MuscleSource};
 pub use opensim_setup::exclude_bushings;
 pub(crate) use opensim_setup::{TrackedTasks, report_forces_of_model, scaling_of_setup, standing_sensors_of};
 pub use origin::{ForceOrigin, TrackedMarkers, Tracking};

@@ -12,6 +12,7 @@
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model, Movement};
 use crate::motion::Motion;
+use crate::numerics::degrees;
 
 /// Largest share of the frames on a limit.
 const ON_LIMIT: f64 = 0.1;
@@ -104,6 +105,5 @@ fn on_limit(coordinate: &Coordinate, known: &[f64]) -> Option<String> {
 }
 
 fn shown(angle: f64) -> String {
-    // Of negative zero, too.
-    format!("{:.0} degrees", angle.to_degrees() + 0.0)
+    degrees(angle.to_degrees())
 }

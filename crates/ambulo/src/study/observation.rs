@@ -1,6 +1,7 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
+use super::fitted_range::fitted_range;
 use super::force_table::{TableForces, Walker, is_loaded};
 use super::idle_forces::IdleForces;
 use super::laboratory_file::LaboratoryFile;
@@ -181,7 +182,7 @@ impl Source {
         findings: &mut Findings,
         progress: &mut Progress<'_>,
     ) -> Result<(Observation, ObservedMotion), StudyError> {
-        let Source { recording, forces, device, added_mass, stated, movement } = self;
+        let Source { recording, forces, device, added_mass, stated, movement, muscles: _ } = self;
         let statements =
             Statements { forces: forces.without_delay(settings.force_delay_s), device, added_mass, stated, movement };
         let recording = recording.with_sound_clock(settings.force_delay_s, findings)?;
@@ -428,7 +429,9 @@ impl Statements {
     /// The ways in which the ground forces weigh a body that is only there to be weighed.
     fn weighed_before(&self, markers: &MarkerSource, settings: &Settings) -> Result<Vec<MassEstimate>, StudyError> {
         let ignored = &mut Findings::default();
-        let body = self.follow(markers, settings, ignored, &mut Progress::default())?;
+        // The person weighs what all of the recording shows.
+        let of_all = Settings { window: Window::default(), ..settings.clone() };
+        let body = self.follow(markers, &of_all, ignored, &mut Progress::default())?;
         let (forces, idle) = self.forces_under(&body, settings, ignored)?;
         if idle.is_relative {
             return Ok(Vec::new());
@@ -494,6 +497,7 @@ impl Statements {
             bodies: standing.map(|standing| &standing.bodies),
             body,
             plate_feet: &plate_feet,
+            window: fitted_range(settings, &trial),
         };
         let shown;
         if let (Some(movement), BodySource::BuiltIn { person, set }) = (&self.movement, &trial.body) {

@@ -1,6 +1,7 @@
 //! The results of a study.
 
 use super::mass::BodyMass;
+use super::muscles::MuscleOutcome;
 use super::origin::{ForceOrigin, Tracking};
 use super::quality::Quality;
 use crate::analysis::activity::Activity;
@@ -61,6 +62,8 @@ pub struct Outcome {
     pub processing: Processing,
     /// Checksum of the name of the person in the file of the recording, if it has one.
     pub subject: Option<u64>,
+    /// Muscle forces; `None` where they were not asked for.
+    pub muscles: Option<MuscleOutcome>,
 }
 
 /// Filters and time range that were used.

@@ -85,11 +85,12 @@ pub fn run_observed(
 }
 
 fn road(
-    source: Source,
+    mut source: Source,
     settings: &Settings,
     findings: &mut Findings,
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
+    let muscles = source.muscles.take();
     let (observed, motion) = source.observe(settings, findings, progress)?;
     let not_measured = unmeasured(&observed, &motion, findings);
     let motion = if settings.refit { refitted(&observed, motion, settings, findings) } else { motion };
@@ -130,7 +131,8 @@ fn road(
         processing,
         force_origin,
     };
-    let outcome = computed.judged(settings, findings);
+    let mut outcome = computed.judged(settings, findings);
+    outcome.muscles = muscles.map(|request| request.solve(&outcome, findings)).transpose()?;
     report_sliding(&outcome, settings, findings);
     progress.end(Stage::Feasibility)?;
     Ok(outcome)
@@ -222,6 +224,7 @@ impl Computed {
             verdict,
             processing: Processing::of(&self.processing),
             subject: self.subject,
+            muscles: None,
         }
     }
 

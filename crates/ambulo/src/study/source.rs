@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
+use super::muscles::MuscleRequest;
 use super::size::StatedSize;
 use super::standing_trial::StandingTrial;
 use crate::analysis::feasibility::Person;
@@ -34,6 +35,8 @@ pub struct Source {
     pub stated: StatedSize,
     /// A movement of the same person that shows the hip centres and the knee axes of the built-in body.
     pub movement: Option<Arc<LaboratoryFile>>,
+    /// Muscle forces to compute; `None` computes none.
+    pub muscles: Option<MuscleRequest>,
 }
 
 /// The kinds of recording.
@@ -206,6 +209,7 @@ impl Source {
             added_mass: Vec::new(),
             stated: StatedSize::default(),
             movement: None,
+            muscles: None,
         }
     }
 

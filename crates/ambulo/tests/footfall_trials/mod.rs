@@ -136,7 +136,14 @@ fn fitted(
     Plates { events: plates, forces, all_seen }: Plates<'_>,
 ) -> Recorded {
     let settings = FitSettings::default();
-    let trial = MarkerTrial { trial: walk, standing: still, bodies: None, body: body.clone(), plate_feet: &[] };
+    let trial = MarkerTrial {
+        trial: walk,
+        standing: still,
+        bodies: None,
+        body: body.clone(),
+        plate_feet: &[],
+        window: Window::default(),
+    };
     let body = body_in_motion(&trial, &settings, &mut Findings::default()).unwrap();
     let forces = forces.map_or_else(
         || body.plate_forces(),

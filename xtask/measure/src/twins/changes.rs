@@ -32,6 +32,23 @@ pub(super) fn silence(file: &mut C3d, plate: usize) -> Option<()> {
     Some(())
 }
 
+/// Every plate also shows this share of what the plate before it measures, channel by channel.
+pub(super) fn cross_talk(trial: &mut Trial, share: f64) -> Option<()> {
+    let platforms = trial.moving.platforms().ok()?;
+    let recorded = trial.moving.channels.clone();
+    let mut pairs = 0;
+    for plates in platforms.windows(2).filter(|plates| plates[0].kind == plates[1].kind) {
+        for (from, to) in plates[0].channels.iter().flatten().zip(plates[1].channels.iter().flatten()) {
+            let source = &recorded.get(*from)?.samples;
+            let unloaded = *source.first()?;
+            let samples = &mut trial.moving.channels.get_mut(*to)?.samples;
+            samples.iter_mut().zip(source).for_each(|(sample, other)| *sample += share * (other - unloaded));
+        }
+        pairs += 1;
+    }
+    (pairs > 0).then_some(())
+}
+
 /// All channels this much later [s].
 pub(super) fn delayed(trial: &mut Trial, delay_s: f64) -> Option<()> {
     let shift = (delay_s.abs() * trial.moving.analog_rate_hz).round() as usize;
@@ -191,7 +208,7 @@ pub(super) fn pair(trial: &mut Trial, lefts: &[&str]) -> Option<()> {
     Some(())
 }
 
-fn bare(name: &str) -> &str {
+pub(super) fn bare(name: &str) -> &str {
     name.rsplit_once(':').map_or(name, |(_, label)| label)
 }
 

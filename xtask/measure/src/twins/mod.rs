@@ -5,6 +5,7 @@
 //! | `spoiled` | are the faults that laboratories make named, and not found in clean recordings? |
 //! | `impossible` | are motions that no person could make called infeasible? |
 //! | `taken` | how far are the moments of a leg whose plate was taken away from those with its plate? |
+//! | `renamed` | how far are the moments with markers whose names say nothing from those with the names? |
 //!
 //! `--only` takes the recordings whose name contains a text, `--fault` only the faults of the first part whose name
 //! contains it. `--write` writes docs/measured/TWINS.md.
@@ -12,6 +13,7 @@
 mod changes;
 pub(crate) mod clean;
 mod impossible;
+mod renamed;
 mod spoiled;
 mod taken;
 
@@ -69,6 +71,8 @@ fn page(data: &Path, chosen: &Chosen<'_>) -> Result<(String, Vec<&'static str>),
         let table = table.text();
         page += &format!("## Motions that no person could make\n\n{recordings}\n\n{table}\n{remarks}\n");
         page += &taken::section(data, chosen.recording)?;
+        page += "\n";
+        page += &renamed::section(data, chosen.recording)?;
     }
     Ok((page.trim_end().to_owned() + "\n", failures))
 }

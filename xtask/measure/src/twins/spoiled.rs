@@ -6,8 +6,8 @@
 
 use super::Chosen;
 use super::changes::{
-    clock, corners, delayed, exchanged, frozen, held, left_handed, mirrored_force, moved, other_stands, pair,
-    plate_silent, scaled, two_people, without,
+    clock, corners, cross_talk, delayed, exchanged, frozen, held, left_handed, mirrored_force, moved, other_stands,
+    pair, plate_silent, scaled, two_people, without,
 };
 use super::clean::{Files, is_tested, people};
 use ambulo::findings::Findings;
@@ -50,6 +50,7 @@ struct Fault {
 /// All kinds of faults.
 const FAULTS: &[Fault] = &[
     Fault { name: "a plate measured nothing", codes: &["plates.silent"], spoil: |t| plate_silent(t) },
+    Fault { name: "cross-talk of 4 %", codes: &["plates.cross_talk"], spoil: |t| cross_talk(t, 0.04) },
     Fault { name: "plates 30 ms late", codes: &["forces.delayed"], spoil: |t| delayed(t, 0.030) },
     Fault { name: "plates 30 ms early", codes: &["forces.delayed"], spoil: |t| delayed(t, -0.030) },
     Fault { name: "plates 60 ms late", codes: &["forces.delayed"], spoil: |t| delayed(t, 0.060) },

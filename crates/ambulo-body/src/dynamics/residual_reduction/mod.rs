@@ -50,6 +50,7 @@ use super::{LoadSeries, Roots, Workspace};
 use crate::findings::{Code, Findings};
 use crate::kinematics::Trajectory;
 use crate::model::{BodyId, Model};
+use crate::numerics::counted;
 use crate::numerics::elementary::hypot;
 use adjustable_body::AdjustableBody;
 use frame::{FootPose, FrameEvaluator};
@@ -263,7 +264,7 @@ fn report(reduced: &ReducedMotion, findings: &mut Findings) {
         }
     }
     if !reduced.converged {
-        let message = format!("residual reduction did not converge in {} iterations", reduced.iterations);
+        let message = format!("residual reduction did not converge in {}", counted(reduced.iterations, "iteration"));
         findings.report(Code::ConsistencyNotSettled, message);
     }
 }

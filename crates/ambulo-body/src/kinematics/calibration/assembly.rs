@@ -12,6 +12,7 @@ use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::marker_set::{Landmark, NamedMarker, Segment};
 use crate::model::subject_shape::{SegmentShape, SubjectShape, reshaped};
 use crate::model::{BySide, Marker, Side};
+use crate::numerics::counted;
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 
@@ -53,8 +54,8 @@ pub(super) fn assemble(
     use_shoulders_if_needed(trajectories, &mut weights);
     if !unused.is_empty() {
         assumptions.push(format!(
-            "{} markers are not used (head with enough markers on the trunk, or a segment without a pose): {}",
-            unused.len(),
+            "not used: {} (head with enough markers on the trunk, or a segment without a pose): {}",
+            counted(unused.len(), "marker"),
             unused.join(", ")
         ));
     }

@@ -9,7 +9,7 @@ use crate::model::marker_set::Landmark;
 use crate::model::subject_shape::SolePlacement;
 use crate::model::{BySide, Side};
 use crate::numerics::elementary::{atan2, hypot};
-use crate::numerics::median;
+use crate::numerics::{degrees, median};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// In a walk a foot is flat while heel and toe markers are at most this high above their lowest positions [m].
@@ -284,10 +284,10 @@ fn report_unusual_torsion(tibia_from_joint: &Mat3, side: Side, assumptions: &mut
     let outwards = atan2(-axis.x * out, axis.z).to_degrees();
     if !(TORSIONS_DEG[0]..=TORSIONS_DEG[1]).contains(&outwards) {
         let way = if outwards < 0.0 { "inwards" } else { "outwards" };
-        let angle = outwards.abs();
+        let angle = degrees(outwards.abs());
         assumptions.push(format!(
-            "the {side} ankle axis is rotated {way} by {angle:.0} degrees relative to the knee axis (usual: 10 to 30 \
-             outwards): a wand or a knee marker may be misplaced, which affects the moments about these axes"
+            "the {side} ankle axis is rotated {way} by {angle} relative to the knee axis (usual: 10 to 30 outwards): \
+             a wand or a knee marker may be misplaced, which affects the moments about these axes"
         ));
     }
 }

@@ -8,6 +8,7 @@ use super::result::{MarkerFit, MarkerResidual};
 use crate::findings::{Code, Findings};
 use crate::model::{Drive, Model};
 use crate::motion::{MarkerRecording, Motion};
+use crate::numerics::counted;
 use crate::spatial::Vec3;
 
 /// Maximum number of time spans in a message.
@@ -322,6 +323,5 @@ fn times(problem: &FitProblem<'_>, spans: &[[usize; 2]]) -> String {
     let shown: Vec<String> = spans.iter().take(MOST_SPANS).map(one).collect();
     let rest = spans.len().saturating_sub(MOST_SPANS);
     let more = if rest > 0 { format!(" and {rest} more stretches") } else { String::new() };
-    let plural = if frames == 1 { "" } else { "s" };
-    format!("{}{more} ({frames} frame{plural})", listed(shown.iter().map(String::as_str)))
+    format!("{}{more} ({})", listed(shown.iter().map(String::as_str)), counted(frames, "frame"))
 }

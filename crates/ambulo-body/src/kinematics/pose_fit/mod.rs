@@ -29,6 +29,7 @@ use crate::findings::{Code, Findings};
 use crate::model::{Body, Model, Side};
 use crate::motion::gaps::bridge_gaps;
 use crate::motion::{MarkerRecording, Motion, PosedSegment, SegmentPoses};
+use crate::numerics::counted;
 use crate::spatial::{Mat3, Pose, Vec3, rotation_between};
 use joint_angles::{JointAngles, turn_about};
 use std::f64::consts::FRAC_PI_2;
@@ -247,9 +248,9 @@ fn bridge(model: &Model, recording: &PoseRecording<'_>, columns: &mut [Vec<f64>]
     for (coordinate, column) in model.coordinates().iter().zip(columns) {
         let bridged = bridge_gaps(times, column, recording.longest_gap_s);
         if let (Some(first), Some(last)) = (bridged.first(), bridged.last()) {
-            let (frames, name) = (bridged.len(), &coordinate.name);
+            let (frames, name) = (counted(bridged.len(), "frame"), &coordinate.name);
             let message = format!(
-                "`{name}`: poses are missing in {frames} frames from {:.3} to {:.3} s; bridged by a smooth curve",
+                "`{name}`: poses are missing in {frames} from {:.3} to {:.3} s; bridged by a smooth curve",
                 times[*first], times[*last]
             );
             findings.report(Code::PosesBridged, message);

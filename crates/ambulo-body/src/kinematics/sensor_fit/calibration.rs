@@ -4,6 +4,7 @@ use super::{PlacedSensor, SensorAxes, SensorError, SensorHeading, SensorTrial};
 use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model, ModelPosture, Side};
 use crate::motion::{PosedSegment, SensorRecording, posed_segment};
+use crate::numerics::degrees;
 use crate::numerics::elementary::{asin, atan2};
 use crate::spatial::{Mat3, Vec3, rotation_about, rotation_vector};
 
@@ -195,7 +196,7 @@ fn facing(
             let bends = left.map_or(0.0, |left| (left - up * left.dot(&up)).norm());
             let found = match left {
                 None => "no leg has sensors on thigh and shank".to_owned(),
-                Some(_) => format!("the knees bend by {:.0} degrees on average at most", bends.to_degrees()),
+                Some(_) => format!("the knees bend by {} on average at most", degrees(bends.to_degrees())),
             };
             let unknown = || SensorError::Heading { found, expected_deg: KNEE_BENDS.to_degrees() };
             let left = left.filter(|_| bends > KNEE_BENDS).and_then(|left| level(left, up)).ok_or_else(unknown)?;

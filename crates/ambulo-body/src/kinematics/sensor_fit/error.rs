@@ -2,6 +2,7 @@
 
 use crate::kinematics::marker_fit::FitError;
 use crate::model::ModelError;
+use crate::numerics::degrees;
 
 /// Why orientations of sensors give no motion.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -41,8 +42,9 @@ pub enum SensorError {
     },
     /// An axis of the heading that points up or down.
     #[error(
-        "the axis {axis} of `{sensor}` is {angle_deg:.0} degrees from the horizontal in the standing posture; expected \
-         one that points forward"
+        "the axis {axis} of `{sensor}` is {} from the horizontal in the standing posture; expected one that points \
+         forward",
+        degrees(*angle_deg)
     )]
     HeadingAxis {
         /// The axis.

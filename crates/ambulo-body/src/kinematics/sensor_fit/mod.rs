@@ -40,6 +40,7 @@ use crate::findings::{Code, Findings};
 use crate::model::anatomy::Sole;
 use crate::model::{BodyId, BySide, Drive, JointSpeeds, Marker, Model, ModelPosture};
 use crate::motion::{MarkerPath, MarkerRecording, Motion, SensorPath, SensorRecording};
+use crate::numerics::counted;
 use crate::numerics::elementary::asin;
 use crate::spatial::{Mat3, Vec3, rotation_about};
 use calibration::{Calibration, calibrated};
@@ -260,8 +261,8 @@ fn report_gaps(moving: &SensorRecording, placed: &[PlacedSensor], findings: &mut
 fn report_angles(angles: &[(String, f64)], findings: &mut Findings) {
     let Some((worst, angle)) = angles.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
     let message = format!(
-        "{} sensors turn the body; their angle from it is at most {:.2} degrees rms, that of `{worst}`",
-        angles.len(),
+        "the body follows {}; the angle between both is at most {:.2} degrees rms, that of `{worst}`",
+        counted(angles.len(), "sensor"),
         angle.to_degrees()
     );
     findings.report(Code::SensorsFitted, message);

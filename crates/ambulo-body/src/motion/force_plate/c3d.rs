@@ -65,7 +65,7 @@ pub fn plates_from_c3d(
         }
         sources.push((name, source));
     }
-    assume_unit(file, &mut sources, findings);
+    assume_unit(file, unit_m, &mut sources, findings);
     let mut plates = Vec::new();
     for (name, source) in sources {
         match source.and_then(|source| decode(&source, settings, findings)) {
@@ -104,12 +104,22 @@ const FREE_LEVER_M: f64 = 0.005;
 
 /// Assumes another unit of the forces where the file's unit cannot be right, because no step of a person weighs so much
 /// or so little.
-fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)], findings: &mut Findings) {
+fn assume_unit(
+    file: &C3d,
+    unit_m: f64,
+    sources: &mut [(String, Result<PlateSource, String>)],
+    findings: &mut Findings,
+) {
     let weight_n = subject_from_c3d(file).mass_kg.map(|kg| kg * STANDARD_GRAVITY);
     let known = || sources.iter().filter_map(|(_, source)| source.as_ref().ok());
     let stepped = median(known().filter_map(|source| Some(source.stepped_weight()? * source.units.force_n)));
-    let unit = stepped.and_then(|stepped| Some((stepped, ForceUnit::of_steps(stepped, weight_n)?)));
-    let Some((stepped, unit)) = unit else { return };
+    let (who, found) = match stepped {
+        Some(stepped) => ("a step", Some(stepped)),
+        None if stands_still(file, unit_m) => ("the person who stands", standing_weight(&known().collect::<Vec<_>>())),
+        None => return,
+    };
+    let unit = found.and_then(|found| Some((found, ForceUnit::of_steps(found, weight_n)?)));
+    let Some((found, unit)) = unit else { return };
     let Some(newtons) = unit.newtons(weight_n) else { return };
     for source in sources.iter_mut().filter_map(|(_, source)| source.as_mut().ok()) {
         // With its force alone multiplied, a free moment has a lever that is shorter by the same factor.
@@ -120,17 +130,63 @@ fn assume_unit(file: &C3d, sources: &mut [(String, Result<PlateSource, String>)]
         source.units.force_n *= newtons;
         source.units.moment_nm *= factor;
     }
-    let is_unsure = weight_n.is_none() && unit == ForceUnit::Kilonewtons && BODY_WEIGHT.contains(&stepped);
+    let is_unsure = weight_n.is_none() && unit == ForceUnit::Kilonewtons && BODY_WEIGHT.contains(&found);
     let or_else = if is_unsure { ", or in body weights, which the mass of the person would show" } else { "" };
     let message = format!(
-        "steps on the force plates weigh {} N by the unit in the file, which no person does; the forces are in {}, of \
-         which a step weighs {:.0} N{or_else}, and were read so. hint: correct ANALOG:UNITS, ANALOG:SCALE or the \
+        "{who} on the force plates weighs {} N by the unit in the file, which no person does; the forces are in {}, so \
+         that {who} weighs {:.0} N{or_else}, and were read so. hint: correct ANALOG:UNITS, ANALOG:SCALE or the \
          calibration",
-        Shown((1e4 * stepped).round() / 1e4),
+        Shown((1e4 * found).round() / 1e4),
         unit.name(),
-        stepped * newtons
+        found * newtons
     );
     findings.report(Code::PlatesUnitByWeight, message);
+}
+
+/// The load of somebody who stands still changes by less than this share.
+const STEADY: f64 = 0.1;
+/// A marker of somebody who stands still stays within this distance [m].
+const STILL_M: f64 = 0.1;
+
+/// Whether most markers stay in place.
+fn stands_still(file: &C3d, unit_m: f64) -> bool {
+    let markers = crate::motion::real_points::real_points(file);
+    let ranges = markers.iter().filter_map(|point| {
+        let seen = || point.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())).map(|p| Vec3::from(*p));
+        let first = seen().next()?;
+        Some(unit_m * seen().map(|position| (position - first).norm()).fold(0.0, f64::max))
+    });
+    median(ranges).is_some_and(|range_m| range_m < STILL_M)
+}
+
+/// The weight of a person who stands still on the plates by the units in the file [N]; `None` if the load of all plates
+/// together changes, as that of a step, and the noise of an unloaded plate do, or if the markers are not above it.
+fn standing_weight(plates: &[&PlateSource]) -> Option<f64> {
+    let loads: Vec<(&PlateSource, Vec<f64>)> =
+        plates.iter().filter_map(|plate| Some((*plate, plate.load()?))).collect();
+    let samples = loads.iter().map(|(_, load)| load.len()).min()?;
+    let total = |i: usize| loads.iter().map(|(plate, load)| load[i] * plate.units.force_n).sum::<f64>();
+    let mut sorted: Vec<f64> = (0..samples).map(total).filter(|x| x.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
+    let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
+    let is_steady = middle > 0.0 && high - low < STEADY * middle;
+    (is_steady && is_above(&loads)).then_some(middle)
+}
+
+/// Whether the markers are above the loaded plates.
+fn is_above(loads: &[(&PlateSource, Vec<f64>)]) -> bool {
+    let (mut moment, mut sum, mut reach_m) = (Vec3::zeros(), 0.0, 0.0_f64);
+    for (plate, load) in loads {
+        let Some(((center, half_m), load)) = plate.extent().zip(median(load.iter().copied())) else { continue };
+        let newtons = load.max(0.0) * plate.units.force_n;
+        moment += center * newtons;
+        sum += newtons;
+        reach_m = reach_m.max(half_m);
+    }
+    let Some(((plate, _), body)) = loads.first().and_then(|first| Some((first, first.0.body?))) else { return false };
+    let away = body - moment / sum;
+    plate.level_part(away).is_some_and(|level| level.norm() <= reach_m)
 }
 
 /// Reports reversed ORIGINs in one note for all plates: nearly every file of Vicon's programs has them.

@@ -67,6 +67,11 @@ struct Reading {
 impl PlateSource {
     /// Body weight from the steps on the plate, in the unit of the file; `None` without a whole step.
     pub(super) fn stepped_weight(&self) -> Option<f64> {
+        stepped_weight(&self.times, &self.load()?)
+    }
+
+    /// Upward force of the plate in the unit of the file, one entry per sample, with the sign that makes it a load.
+    pub(super) fn load(&self) -> Option<Vec<f64>> {
         let layout = layout(self).ok()?;
         let surface = Surface::through(&self.corners).ok()?;
         let channels = calibrated(self, layout, &mut Findings::default()).ok()?;
@@ -76,7 +81,19 @@ impl PlateSource {
         let largest = vertical.iter().copied().fold(0.0, |most: f64, x| most.max(x.abs()));
         // The threshold of the sign is in newtons.
         let sign = load_sign(&vertical.iter().map(|x| x * 1e4 / largest).collect::<Vec<_>>());
-        stepped_weight(&self.times, &vertical.iter().map(|x| sign * x).collect::<Vec<_>>())
+        Some(vertical.iter().map(|x| sign * x).collect())
+    }
+
+    /// The part of a vector in the plane of the plate.
+    pub(super) fn level_part(&self, vector: Vec3) -> Option<Vec3> {
+        let normal = Surface::through(&self.corners).ok()?.normal();
+        Some(vector - normal * vector.dot(&normal))
+    }
+
+    /// Centre of the plate, and half of its diagonal [m].
+    pub(super) fn extent(&self) -> Option<(Vec3, f64)> {
+        let Surface { center, size: [x, y], .. } = Surface::through(&self.corners).ok()?;
+        Some((center, 0.5 * (x * x + y * y).sqrt()))
     }
 }
 

@@ -81,6 +81,22 @@ impl Default for PlateSettings {
 }
 
 impl PlateRecording {
+    /// The samples from one time to another, both included.
+    #[must_use]
+    pub fn within(self, [from_s, to_s]: [f64; 2]) -> PlateRecording {
+        let first = self.times.partition_point(|time| *time < from_s);
+        let end = self.times.partition_point(|time| *time <= to_s).max(first);
+        let part = |values: &[Vec3]| values.get(first..end).unwrap_or(values).to_vec();
+        let is_inside = |span: &[f64; 2]| span[1] >= from_s && span[0] <= to_s;
+        PlateRecording {
+            times: self.times.get(first..end).unwrap_or(&self.times).to_vec(),
+            force: part(&self.force),
+            moment: part(&self.moment),
+            clipped: self.clipped.iter().copied().filter(is_inside).collect(),
+            ..self
+        }
+    }
+
     /// Centre of the surface: the mean of its corners [m].
     #[must_use]
     pub fn center(&self) -> Vec3 {

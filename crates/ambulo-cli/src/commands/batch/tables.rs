@@ -23,7 +23,7 @@ pub(super) struct PartTables {
 }
 
 /// Numbers of the summary in the table of trials: column, place in the summary.
-const NUMBERS: [(&str, &str); 21] = [
+const NUMBERS: [(&str, &str); 22] = [
     ("mass_kg", "/mass_kg"),
     ("height_m", "/height_m"),
     ("speed_m_s", "/speed_m_s"),
@@ -45,7 +45,12 @@ const NUMBERS: [(&str, &str); 21] = [
     ("knee_adduction_second_peak_l_nm_kg", "/knee_adduction_moment/1/left/mean"),
     ("knee_adduction_impulse_r_nms_kg", "/knee_adduction_moment/2/right/mean"),
     ("knee_adduction_impulse_l_nms_kg", "/knee_adduction_moment/2/left/mean"),
+    ("muscles_largest_reserve_share", "/muscles/largest_reserve/share"),
 ];
+/// Loads of joints in the table of trials, in the order of the summary.
+const CONTACT_LOADS: [&str; 5] = ["hip", "knee", "ankle", "knee_medial", "knee_lateral"];
+/// What the summary has of each load: name, unit in the name of the column.
+const CONTACT_QUANTITIES: [(&str, &str); 3] = [("first_peak", "bw"), ("second_peak", "bw"), ("impulse", "bw_s")];
 /// Texts of the summary in the table of trials.
 const TEXTS: [(&str, &str); 10] = [
     ("model", "/model"),
@@ -71,12 +76,38 @@ pub(super) fn part_tables(rows: &[Row<'_>], about: &[(String, String)]) -> PartT
 }
 
 /// Units of the table of trials whose names do not end with them.
-const TRIAL_UNITS: [(&str, &str); 3] =
-    [("unit of judged_share", "1"), ("unit of measured_share_r", "1"), ("unit of measured_share_l", "1")];
+const TRIAL_UNITS: [(&str, &str); 4] = [
+    ("unit of judged_share", "1"),
+    ("unit of measured_share_r", "1"),
+    ("unit of measured_share_l", "1"),
+    ("unit of muscles_largest_reserve_share", "1"),
+];
 
 fn with(about: &[(String, String)], more: &[(&str, &str)]) -> Vec<(String, String)> {
     let more = more.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
     about.iter().cloned().chain(more).collect()
+}
+
+/// `knee_contact_first_peak_r_bw` and the like.
+fn contact_columns(rows: &[Row<'_>]) -> Vec<Column> {
+    let column = |load: &str, index: usize, (quantity, unit): (&str, &str), (letter, side): (&str, &str)| {
+        let place = format!("/muscles/contact_loads/{index}/{side}/mean");
+        let number = |row: &Row<'_>| {
+            let summary = row.found.as_ref().ok().map(|found| &found.summary);
+            summary.and_then(|summary| summary.pointer(&place)?.as_f64()).unwrap_or(f64::NAN)
+        };
+        let name = format!("{load}_contact_{quantity}_{letter}_{unit}");
+        Column { name, values: ColumnValues::Double(rows.iter().map(number).collect()) }
+    };
+    let mut columns = Vec::new();
+    for (k, load) in CONTACT_LOADS.into_iter().enumerate() {
+        for (q, quantity) in CONTACT_QUANTITIES.into_iter().enumerate() {
+            for side in [("r", "right"), ("l", "left")] {
+                columns.push(column(load, k * CONTACT_QUANTITIES.len() + q, quantity, side));
+            }
+        }
+    }
+    columns
 }
 
 fn trials(rows: &[Row<'_>]) -> Vec<Column> {
@@ -100,6 +131,7 @@ fn trials(rows: &[Row<'_>]) -> Vec<Column> {
         let number = |row: &Row<'_>| summary(row, place).and_then(|value| value.as_f64()).unwrap_or(f64::NAN);
         column(name, ColumnValues::Double(rows.iter().map(number).collect()))
     }));
+    columns.extend(contact_columns(rows));
     for side in ["r", "l"] {
         // A comparison has the feet that stood on plates: both, or one.
         let error = |row: &Row<'_>| {

@@ -120,9 +120,5 @@ fn report_lost(findings: &mut Findings, what: &[String]) {
 
 /// `3 channels`, `1 event`; `None` for zero.
 fn counted(count: usize, one: &str) -> Option<String> {
-    match count {
-        0 => None,
-        1 => Some(format!("1 {one}")),
-        _ => Some(format!("{count} {one}s")),
-    }
+    (count > 0).then(|| ambulo::numerics::counted(count, one))
 }

@@ -13,7 +13,6 @@ use crate::replacement::ResultTarget;
 use crate::request::ForcesRequest;
 use ambulo::findings::{Code, Findings};
 use ambulo::job::{Job, ModelChoice, Reader, Shared, ending};
-use ambulo::model::Model;
 use ambulo::motion::SubjectParameters;
 use ambulo::study::{ForceOrigin, Outcome, Recording, Stage};
 use ambulo_results::{GroundSource, Input, Keep, OutputFile, SUBJECT};
@@ -64,7 +63,7 @@ pub(crate) fn compute_with(job: &Job, outputs: Outputs, caller: &Caller, shared:
         if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let outcome = read.run_observed(&mut findings, &mut watch)?;
-    let body = body_file(&outcome.body, &mut findings);
+    let body = body_file(&outcome, &mut findings);
     Ok(MotionRun {
         input: input(&job, ground.as_deref(), stated, &outcome),
         outcome,
@@ -97,8 +96,9 @@ fn check_recording(recording: &Path) -> Result<()> {
 }
 
 /// The body that was used as an OpenSim model; a note if it cannot be written.
-fn body_file(model: &Model, findings: &mut Findings) -> Option<OutputFile<'static>> {
-    match OutputFile::body(SUBJECT, model) {
+fn body_file(outcome: &Outcome, findings: &mut Findings) -> Option<OutputFile<'static>> {
+    let muscles = outcome.muscles.as_ref().map(|found| &found.set);
+    match OutputFile::body(SUBJECT, &outcome.body, muscles) {
         Ok(file) => Some(file),
         Err(reason) => {
             findings.report(Code::SubjectNotWritten, format!("{SUBJECT} was not written: {reason}"));

@@ -2,10 +2,12 @@
 
 use super::Sheet;
 use super::sheet::wrapped;
+use ambulo::analysis::{LaboratoryRecording, MarkerUse, marker_use};
 use ambulo::findings::Findings;
 use ambulo::model::Side;
 use ambulo::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use ambulo::motion::{MarkerPath, MarkerRecording, laboratory, markers_from_trc};
+use ambulo::numerics::counted;
 use ambulo_formats::trc::Trc;
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -93,7 +95,7 @@ pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Opt
     match MarkerSet::recognise(names.iter().copied()) {
         Ok(recognised) => {
             let known = recognised.markers.len();
-            let head = format!("{}, {known} of {} markers", recognised.sets.join(" with "), names.len());
+            let head = format!("{}, {known} of {}", recognised.sets.join(" with "), counted(names.len(), "marker"));
             let unknown: Vec<&str> = recognised.unknown.iter().map(String::as_str).collect();
             let mut lines = vec![head];
             if !unknown.is_empty() {
@@ -105,6 +107,7 @@ pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Opt
                 );
             }
             sheet.entry("marker_set", json!({ "sets": &recognised.sets, "known": known, "unknown": unknown }), lines);
+            add_use(sheet, recording);
             shows_a_pelvis(&recognised).then_some(recognised.sets)
         }
         Err(error) => {
@@ -112,6 +115,25 @@ pub(super) fn add_markers(sheet: &mut Sheet, recording: &MarkerRecording) -> Opt
             None
         }
     }
+}
+
+/// Adds which markers of a motion the built-in body follows; a standing trial does not show with which segment a marker
+/// moves.
+fn add_use(sheet: &mut Sheet, recording: &MarkerRecording) {
+    if stands_still(recording) {
+        return;
+    }
+    let whole =
+        LaboratoryRecording { markers: recording.clone(), poses: None, plates: Vec::new(), unit: String::new() };
+    let Some(MarkerUse { used, unused }) = marker_use(&whole) else { return };
+    let all = used.len() + unused.len();
+    let mut lines = vec![format!("{} of {} by the built-in body", used.len(), counted(all, "marker"))];
+    if !unused.is_empty() {
+        let names: Vec<&str> = unused.iter().map(String::as_str).collect();
+        let shown = wrapped(&names).into_iter().enumerate();
+        lines.extend(shown.map(|(k, line)| if k == 0 { format!("not used: {line}") } else { line }));
+    }
+    sheet.entry("markers_used", json!({ "used": used, "unused": unused }), lines);
 }
 
 /// Whether the recognised markers show a pelvis, without which no body can be built.
@@ -161,9 +183,9 @@ impl Gaps<'_> {
         if *missing == frames {
             return format!("{name}: never visible");
         }
-        let gaps = if *count == 1 { "gap" } else { "gaps" };
+        let (gaps, lost) = (counted(*count, "gap"), counted(*missing, "frame"));
         let share = 100.0 * *missing as f64 / frames as f64;
-        format!("{name}: {count} {gaps}, {missing} frames ({share:.0} %), longest {longest_s:.3} s")
+        format!("{name}: {gaps}, {lost} ({share:.0} %), longest {longest_s:.3} s")
     }
 }
 

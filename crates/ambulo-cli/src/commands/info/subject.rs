@@ -5,6 +5,7 @@ use crate::caller::Caller;
 use crate::files::FilesOf;
 use ambulo::job::read_header;
 use ambulo::motion::missing_force_reasons;
+use ambulo::numerics::counted;
 use ambulo_formats::b3d::{Header, TrialHeader};
 use anyhow::Result;
 use std::path::Path;
@@ -31,13 +32,15 @@ fn in_words(number: usize, trial: &TrialHeader) -> String {
     let measured = trial.missing_force.iter().filter(|reason| !reason.is_missing()).count();
     let (rate_hz, lasts_s) = (1.0 / trial.step_s, trial.frames.saturating_sub(1) as f64 * trial.step_s);
     let missing = if measured < trial.frames { format!(" ({})", missing_force_reasons(trial)) } else { String::new() };
+    let passes = if trial.passes.len() == 1 { "1 pass".to_owned() } else { format!("{} passes", trial.passes.len()) };
     format!(
-        "{number} {}: {} frames, {lasts_s:.3} s at {rate_hz:.0} Hz, {}, {} passes, ground force in {measured} \
-         frames{missing}",
+        "{number} {}: {}, {lasts_s:.3} s at {rate_hz:.0} Hz, {}, {}, ground force in \
+         {}{missing}",
         trial.name,
-        trial.frames,
+        counted(trial.frames, "frame"),
         trial.kind.words(),
-        trial.passes.len()
+        passes,
+        counted(measured, "frame")
     )
 }
 

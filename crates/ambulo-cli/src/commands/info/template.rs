@@ -7,6 +7,7 @@ use ambulo::job::{ending, table};
 use ambulo::kinematics::marker_proposal::{MarkerProposals, propose_markers};
 use ambulo::model::marker_set::{MarkerSet, marker_template};
 use ambulo::motion::{Heading, is_marker_table};
+use ambulo::numerics::counted;
 use ambulo::study::LaboratoryFile;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -42,8 +43,9 @@ pub(super) fn write(args: &InfoArgs, target: &Path, bytes: &[u8]) -> Result<Stri
     let (known, proposed, unknown) =
         (found.markers.len() - found.proposed.len(), found.proposed.len(), found.unknown.len());
     Ok(format!(
-        "{}: {known} markers by name, {proposed} proposed by position ({}), {unknown} without a proposal",
+        "{}: {} by name, {proposed} proposed by position ({}), {unknown} without a proposal",
         target.display(),
+        counted(known, "marker"),
         found.statement
     ))
 }

@@ -12,6 +12,7 @@ use crate::args::{StreamArgs, StreamFormat};
 use ambulo::findings::{Code, Finding};
 use ambulo::ground::predict::PredictError;
 use ambulo::ground::stream::{Stream, StreamError, StreamFrame};
+use ambulo::numerics::counted;
 use ambulo_results::{stream_columns, stream_row};
 use anyhow::{Result, anyhow, bail};
 
@@ -487,8 +488,9 @@ impl<'a> Conversation<'a> {
             _ => None,
         };
         let notices: String = notices.iter().map(|(kind, count)| format!(", {count} x {kind}")).collect();
-        let counted = |count: u64| if count == 1 { "1 frame".to_owned() } else { format!("{count} frames") };
-        let message = format!("{} in, forces of {} out{notices}", counted(frames), counted(results));
+        let [frames, out] =
+            [frames, results].map(|count| counted(usize::try_from(count).unwrap_or(usize::MAX), "frame"));
+        let message = format!("{frames} in, forces of {out} out{notices}");
         self.setup.say(&message);
         self.send(&Answer::Notice { notice: "ended", frame: None, message });
         self.numbering = Numbering::default();

@@ -48,6 +48,7 @@ pub(super) fn panel(
         traces,
         red: Vec::new(),
         empty: nothing.then(|| empty.to_owned()),
+        activity: None,
     }
 }
 
@@ -62,11 +63,11 @@ pub(super) struct ShownCurve {
     pub(super) side: Side,
     pub(super) number: usize,
     pub(super) values: Vec<f64>,
-    origin: Origin,
+    origin: Option<Origin>,
 }
 
 impl ShownCurve {
-    fn added(self, block: &mut Block) -> CycleCurve {
+    pub(super) fn added(self, block: &mut Block) -> CycleCurve {
         let values = block.add(&self.values);
         CycleCurve { side: sides::page(self.side), number: self.number, values, origin: self.origin }
     }
@@ -80,7 +81,8 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
     let is_clinical = results.convention() == Convention::Clinical && PELVIS_AND_HIPS.contains(&quantity.id)
         || quantity.derived.is_some() && quantity.group == ClinicalGroup::Kinematics;
     if let Some((column, values)) = results.clinical_column(quantity, side).filter(|_| is_clinical) {
-        return results.cycles_of(side).map(|cycle| over_cycle(results, cycle, side, &column, values)).collect();
+        let origin = Origin { file: CLINICAL.to_owned(), column, factor: 1.0 };
+        return over_cycles(results, side, values, Some(&origin));
     }
     let factor = quantity.factor(results.mass_kg, side);
     let rows = results.curves.iter().filter(|curve| curve.side == side && curve.quantity == quantity.columns[side]);
@@ -90,7 +92,7 @@ pub(super) fn shown_cycles(results: &Results, quantity: &ClinicalQuantity, side:
             side,
             number: curve.cycle,
             values: curve.values.iter().map(|x| factor * x).collect(),
-            origin: Origin { file: CYCLES.to_owned(), column: curve.quantity.clone(), factor },
+            origin: Some(Origin { file: CYCLES.to_owned(), column: curve.quantity.clone(), factor }),
         }
     };
     rows.map(shown).collect()
@@ -102,20 +104,18 @@ fn is_left_out(results: &Results, quantity: &ClinicalQuantity, side: Side) -> bo
     has_file && results.clinical_column(quantity, side).is_none()
 }
 
-/// A column of `clinical.csv`, time-normalised over a cycle.
-fn over_cycle(results: &Results, cycle: &PageCycle, side: Side, column: &str, values: &[f64]) -> ShownCurve {
-    let PageCycle { number, start_s, end_s, .. } = *cycle;
+/// Values over time, time-normalised over every cycle of a foot.
+pub(super) fn over_cycles(results: &Results, side: Side, values: &[f64], origin: Option<&Origin>) -> Vec<ShownCurve> {
     let last = (CYCLE_SAMPLES - 1) as f64;
-    let at = |k: usize| interpolate(&results.times, values, start_s + (end_s - start_s) * k as f64 / last);
-    ShownCurve {
-        side,
-        number,
-        values: (0..CYCLE_SAMPLES).map(at).collect(),
-        origin: Origin { file: CLINICAL.to_owned(), column: column.to_owned(), factor: 1.0 },
-    }
+    let one = |&PageCycle { number, start_s, end_s, .. }: &PageCycle| {
+        let at = |k: usize| interpolate(&results.times, values, start_s + (end_s - start_s) * k as f64 / last);
+        ShownCurve { side, number, values: (0..CYCLE_SAMPLES).map(at).collect(), origin: origin.cloned() }
+    };
+    results.cycles_of(side).map(one).collect()
 }
 
-fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
+/// The mean over the cycles of a foot; `None` without cycles.
+pub(super) fn mean_curve(results: &Results, side: Side, curves: &[ShownCurve], block: &mut Block) -> Option<MeanCurve> {
     let CurveStatistics { mean, sd, count } = statistics(curves)?;
     let foot_offs: Vec<f64> = results.cycles_of(side).filter_map(|cycle| cycle.foot_off_percent).collect();
     Some(MeanCurve {

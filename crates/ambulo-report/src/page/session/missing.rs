@@ -8,6 +8,7 @@ use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::page::contract::PageSource;
 use ambulo::analysis::StrideQuantity;
 use ambulo::model::Side;
+use ambulo::numerics::degrees;
 use ambulo_results::{GROUND_SD, MOMENTS, POWERS};
 use std::collections::BTreeMap;
 
@@ -136,7 +137,7 @@ fn leg(results: &Results, side: Side) -> String {
 }
 
 fn turning(turn: Turn) -> String {
-    let angle = turn.degrees.map_or_else(String::new, |degrees| format!(" by {degrees:.0} degrees"));
+    let angle = turn.degrees.map_or_else(String::new, |angle_deg| format!(" by {}", degrees(angle_deg)));
     format!(
         "The path turns{angle}: normal ranges and bands are left out, because they apply to straight walking. Pelvic \
          rotation includes the turn, and fore-aft and sideways ground forces are along the world axes: do not compare \

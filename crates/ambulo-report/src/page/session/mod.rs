@@ -14,6 +14,7 @@ mod header;
 mod knee_adduction;
 mod machines;
 mod missing;
+mod muscles;
 pub(crate) mod pace;
 mod peaks;
 mod quality;
@@ -66,9 +67,11 @@ fn recording(
     let mut feasibility = verdict.and_then(|verdict| feasibility::feasibility(verdict, &basis, &quantities));
     let values = extracted::extracted(&results, &shown);
     let mut groups = groups::groups(&results, &size, &shown, block);
+    groups.extend(muscles::groups(&results, block));
     groups.extend(pace::group(&results, block));
     let mut quality = quality::quality(&results, &quantities, block);
     missing.extend(missing::missing(&results, &size, &quantities, &still));
+    missing.extend(muscles::missing(&results));
     if let Some((why, closest)) = verdict.and_then(|verdict| feasibility::partly_judged(verdict, &basis, &quantities)) {
         missing.push(why);
         quality.tables.push(closest);
@@ -100,6 +103,7 @@ fn tables(results: &Results, size: &BodySize, values: &[Extracted]) -> Vec<Table
     let summary = &results.summary;
     let mut tables = vec![time_distance::table(results, size), extracted::table(values)];
     tables.extend(knee_adduction::knee_adduction(&summary.knee_adduction_moment));
+    tables.extend(muscles::contact_table(results));
     tables.push(extracted::symmetry(values, &summary.times_and_distances));
     tables.push(peaks::peaks(&summary.peaks));
     tables

@@ -37,6 +37,7 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
         ],
         red: Vec::new(),
         empty: None,
+        activity: None,
     };
     Some(Group {
         id: "pace".to_owned(),

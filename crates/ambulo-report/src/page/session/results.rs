@@ -9,8 +9,8 @@ use ambulo::model::{Model, Side};
 use ambulo::motion::TimeGrid;
 use ambulo_formats::table::Table;
 use ambulo_results::{
-    CLINICAL, Convention, CycleRow, Folder, GROUND, GROUND_MEASURED, GROUND_SD, GroundOrigin, KINEMATICS, MOMENTS,
-    POWERS, ResultsError, Summary,
+    CLINICAL, CONTACT_REACTIONS, Convention, CycleRow, EMG, Folder, GROUND, GROUND_MEASURED, GROUND_SD, GroundOrigin,
+    KINEMATICS, MOMENTS, MUSCLES, POWERS, ResultsError, Summary,
 };
 
 /// Most instants of time series that a page draws: more take memory and time in the browser, and no screen shows them.
@@ -54,6 +54,12 @@ pub(super) struct Results {
     pub(super) measured: Option<Table>,
     /// `clinical.csv`.
     pub(super) clinical: Option<Table>,
+    /// `muscles.sto`.
+    pub(super) muscles: Option<Table>,
+    /// `reactions_contact.sto`.
+    pub(super) contact: Option<Table>,
+    /// `emg.sto`.
+    pub(super) emg: Option<Table>,
     pub(super) events: Vec<PageEvent>,
     pub(super) curves: Vec<CycleRow>,
     pub(super) cycles: Vec<PageCycle>,
@@ -86,6 +92,9 @@ impl Results {
             ground: table(GROUND)?,
             deviations: table(GROUND_SD)?,
             measured: table(GROUND_MEASURED)?,
+            muscles: table(MUSCLES)?,
+            contact: table(CONTACT_REACTIONS)?,
+            emg: table(EMG)?,
             clinical: on_instants(folder, CLINICAL, folder.csv_table(CLINICAL)?, &grid)?,
             weight_n: mass_kg * summary.gravity_m_s2,
             source: source(&summary),

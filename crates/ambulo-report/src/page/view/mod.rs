@@ -2,9 +2,12 @@
 
 use super::block::Block;
 use super::contract::{
-    PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewPlate, ViewTorque,
+    PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewMuscle, ViewPathPoint, ViewPlate,
+    ViewTorque,
 };
-use crate::stage::{BodyPath, ForceRole, Stage, StageBody, StageContact, StageForce, StagePlate, StageTorque};
+use crate::stage::{
+    BodyPath, ForceRole, Stage, StageBody, StageContact, StageForce, StageMuscle, StagePlate, StageTorque,
+};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
 use ambulo_results::{Folder, ResultsError};
@@ -40,6 +43,7 @@ pub(super) fn drawn(stage: Stage, block: &mut Block) -> Viewed {
         forces: stage.forces.iter().map(|force| of_force(force, block)).collect(),
         torques: stage.torques.iter().map(|torque| of_torque(torque, block)).collect(),
         contacts: stage.contacts.iter().map(of_contact).collect(),
+        muscles: (!stage.muscles.is_empty()).then(|| stage.muscles.iter().map(|one| of_muscle(one, block)).collect()),
         floor_m: stage.floor_m,
         weight_n: stage.weight_n,
     };
@@ -87,6 +91,16 @@ fn of_torque(torque: &StageTorque, block: &mut Block) -> ViewTorque {
 
 fn of_contact(contact: &StageContact) -> ViewContact {
     ViewContact { body: contact.body, place: contact.place.into(), side: page_side(contact.side) }
+}
+
+fn of_muscle(muscle: &StageMuscle, block: &mut Block) -> ViewMuscle {
+    let points = muscle.points.iter().map(|(body, place)| ViewPathPoint { body: *body, place: (*place).into() });
+    ViewMuscle {
+        name: muscle.name.clone(),
+        side: page_side(muscle.side),
+        points: points.collect(),
+        activation: block.add(&muscle.activation),
+    }
 }
 
 fn vectors(values: &[Vec3], block: &mut Block) -> [Series; 3] {

@@ -7,18 +7,19 @@
 
 use super::landmark_paths::LandmarkPaths;
 use crate::findings::{Code, Findings};
-use crate::kinematics::calibration::{Calibrated, PersonMeasurements, Trial, calibrate};
+use crate::kinematics::calibration::{PersonMeasurements, Trial, calibrate};
 use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, fit_markers};
 use crate::kinematics::{Posture, body_motion};
-use crate::model::marker_set::{Landmark, MarkerSet, NamedMarker, Segment};
-use crate::model::{CoordinateId, Marker, Model, Movement, Side};
+use crate::model::marker_set::{Landmark, MarkerSet, NamedMarker};
+use crate::model::{BodyId, CoordinateId, Marker, Model, Movement, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Pose, Vec3};
+use std::collections::BTreeMap;
 
 /// Least number of frames in which a marker of the standing trial must be seen.
-const LEAST_FRAMES: usize = 3;
+pub(super) const LEAST_FRAMES: usize = 3;
 /// Fewest markers that show the pose of a foot.
-const OF_A_POSE: usize = 3;
+pub(super) const OF_A_POSE: usize = 3;
 /// Steps of the search for the level foot, and the step of its derivative [rad].
 const LEVEL_STEPS: usize = 4;
 const SMALL: f64 = 1e-4;
@@ -40,15 +41,21 @@ pub(in crate::analysis) fn completed(
         return None;
     }
     let body = calibrate(moving, Trial::Moving, &of_motion.recognised, person, &mut Findings::default()).ok()?;
-    let placed = placed(&body, standing, &lacking)?;
-    let names: Vec<String> = lacking.iter().map(|marker| format!("`{}`", marker.name)).collect();
+    let names: Vec<&str> = lacking.iter().map(|marker| marker.name.as_str()).collect();
+    let placed = placed(&body.human.model, body.weights, standing, &names)?;
+    report(&names, findings);
+    Some(placed)
+}
+
+/// Reports markers that were placed.
+pub(super) fn report(names: &[&str], findings: &mut Findings) {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     let message = format!(
         "the standing trial does not show {}, which the motion has: placed on the standing body by the motion. hint: \
          record the standing trial with all markers",
         names.join(", ")
     );
     findings.report(Code::CalibrationPlaced, message);
-    Some(placed)
 }
 
 /// Whether a marker is needed, the motion shows it, and no marker of the standing trial is on its landmark.
@@ -83,21 +90,21 @@ fn is_needed(landmark: Landmark) -> bool {
 }
 
 /// The standing trial with these markers, where the body stands by the others.
-fn placed(body: &Calibrated, standing: &MarkerRecording, lacking: &[&NamedMarker]) -> Option<MarkerRecording> {
-    let model = &body.human.model;
-    let settings = FitSettings {
-        weights: body.weights.clone(),
-        limits: JointLimits::Ranges,
-        outliers: OutlierDetection::Off,
-        ..FitSettings::default()
-    };
+pub(super) fn placed(
+    model: &Model,
+    weights: BTreeMap<String, f64>,
+    standing: &MarkerRecording,
+    lacking: &[&str],
+) -> Option<MarkerRecording> {
+    let settings =
+        FitSettings { weights, limits: JointLimits::Ranges, outliers: OutlierDetection::Off, ..FitSettings::default() };
     let fit = fit_markers(model, standing, &settings, &mut Findings::default()).ok()?;
     let mut completed = standing.clone();
     let own: Vec<(&Marker, usize)> = lacking
         .iter()
         .filter_map(|lacking| {
-            let marker = model.markers().iter().find(|marker| marker.name == lacking.name)?;
-            Some((marker, slot(&mut completed, &lacking.name)))
+            let marker = model.markers().iter().find(|marker| marker.name == **lacking)?;
+            Some((marker, slot(&mut completed, lacking)))
         })
         .collect();
     let level: Vec<Side> = Side::BOTH.into_iter().filter(|side| is_loose(model, standing, lacking, *side)).collect();
@@ -130,19 +137,22 @@ fn slot(recording: &mut MarkerRecording, name: &str) -> usize {
 }
 
 /// Whether a foot lacks a marker, and the others do not show its pose.
-fn is_loose(model: &Model, standing: &MarkerRecording, lacking: &[&NamedMarker], side: Side) -> bool {
-    let is_of_foot = |marker: &NamedMarker| {
-        marker.definition.side == Some(side) && matches!(marker.definition.segment, Segment::Foot | Segment::Toes)
-    };
+fn is_loose(model: &Model, standing: &MarkerRecording, lacking: &[&str], side: Side) -> bool {
     let Some(leg) = &model.anatomy().legs()[side] else { return false };
+    let is_foot_or_toes =
+        |body: BodyId| body == leg.foot || model.bodies()[body.index()].joint.parent == Some(leg.foot);
+    let is_of_foot = |name: &&str| {
+        let marker = model.markers().iter().find(|marker| marker.name == **name);
+        marker.and_then(|marker| marker.body).is_some_and(is_foot_or_toes)
+    };
     let on_foot = model.markers().iter().filter(|marker| marker.body == Some(leg.foot));
     let is_seen = |marker: &&Marker| {
         standing.marker(&marker.name).is_some_and(|path| (0..path.positions.len()).any(|frame| path.is_seen(frame)))
     };
-    lacking.iter().any(|marker| is_of_foot(marker)) && on_foot.filter(is_seen).count() < OF_A_POSE
+    lacking.iter().any(is_of_foot) && on_foot.filter(is_seen).count() < OF_A_POSE
 }
 
-fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
+pub(super) fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
     let rest = vec![0.0; q.len()];
     body_motion(model, Posture { q, qd: &rest, qdd: &rest }).into_iter().map(|body| body.pose).collect()
 }

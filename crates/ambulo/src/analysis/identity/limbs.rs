@@ -93,8 +93,7 @@ pub(in crate::analysis) fn report_other_limbs(
     let Some((name, own, still)) = worst.max_by(|a, b| relative(a).total_cmp(&relative(b))) else { return };
     let message = format!(
         "the standing trial is that of another person: its limbs differ by {:.0} % from those of the recording (rms; \
-         at \
-         most {:.1} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
+         at most {:.1} % in one person), most the {name} with {:.0} mm for {:.0} mm. hint: give the standing trial of \
          this person, or none",
         100.0 * share,
         100.0 * OTHER,

@@ -5,7 +5,7 @@
 //! | several people in one file | two prefixes carry the same marker names | an error with the names ([`several`]) |
 //! | left and right exchanged in all labels | pairs of markers against toes, heels and pelvis ([`sides`]) | exchanged back, a warning, quality not good |
 //! | one pair exchanged throughout | the same, and the distances to the neighbours ([`pairs`]) | exchanged back, a warning |
-//! | a marker that the standing trial lacks | the motion has it ([`completion`]) | placed by the motion, a warning |
+//! | a marker that the standing trial lacks | the motion has it ([`completion`], [`model_completion`]) | placed by the motion, a warning |
 //! | another person's standing trial | lengths of the limbs ([`limbs`]) | a warning, quality not good |
 //! | a marker that moved since the standing trial | its place on the body, by all other markers ([`moved`]) | a warning, quality not good |
 //!
@@ -14,6 +14,7 @@
 mod completion;
 mod landmark_paths;
 mod limbs;
+mod model_completion;
 mod moved;
 mod pairs;
 mod several;
@@ -21,6 +22,7 @@ mod sides;
 
 pub(super) use completion::completed;
 pub(crate) use limbs::{OTHER as OTHER_LIMBS, difference as limb_difference, lengths as limb_lengths};
+pub(super) use model_completion::completed_for_model;
 pub(super) use moved::moved;
 pub(super) use several::refuse_several;
 pub(crate) use several::{people_in, person_in};

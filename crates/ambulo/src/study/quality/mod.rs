@@ -24,6 +24,7 @@ use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
 use crate::model::{CoordinateId, Model, Region};
 use crate::motion::{Jumps, Motion, Smoother, jumps};
+use crate::numerics::degrees;
 use crate::spatial::Vec3;
 #[doc(hidden)]
 pub use measure::{Measure, QualityLimits};
@@ -439,11 +440,11 @@ impl QualityEvidence<'_> {
         Measure::FrozenPoints.reason(share, |limit| {
             format!(
                 "the points of the legs move as one rigid piece in {} of the time in which the hips move (at most {}), \
-                 with the thighs {:.0} degrees from the vertical: a program filled them in, because the person was \
+                 with the thighs {} from the vertical: a program filled them in, because the person was \
                  partly out of view",
                 percent(share),
                 percent(limit),
-                thigh_from_vertical.to_degrees()
+                degrees(thigh_from_vertical.to_degrees())
             )
         })
     }
@@ -454,10 +455,10 @@ impl QualityEvidence<'_> {
         let deviation_deg = deviation.to_degrees().min(180.0);
         Measure::AxialRotation.reason(deviation_deg, |limit| {
             format!(
-                "keypoints hardly show axial rotations: that of the thighs is known to {deviation_deg:.0} degrees (at \
-                 most {limit}), so moments about the long axes, and how the others are divided between flexion and \
+                "keypoints hardly show axial rotations: that of the thighs is known to {} (at most {limit}), so moments about the long axes, and how the others are divided between flexion and \
                  adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or \
-                 heel are misplaced"
+                 heel are misplaced",
+                degrees(deviation_deg)
             )
         })
     }

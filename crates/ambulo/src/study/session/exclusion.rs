@@ -10,7 +10,7 @@
 
 use super::SessionCycle;
 use crate::analysis::activity::ActivityKind;
-use crate::numerics::median;
+use crate::numerics::{degrees, median};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -98,7 +98,7 @@ impl fmt::Display for Exclusion {
                 write!(f, "activity: {}; most trials: {}", found.words(), usual.words())
             }
             Exclusion::Turn { angle } => {
-                write!(f, "the path turns by {:.0} degrees; at most 20 are straight", angle.to_degrees())
+                write!(f, "the path turns by {}; at most 20 are straight", degrees(angle.to_degrees()))
             }
             Exclusion::Duration { found_s, usual_s } => write!(
                 f,

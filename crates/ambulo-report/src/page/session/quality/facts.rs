@@ -1,6 +1,7 @@
 //! Quality measures with their limits.
 
 use crate::page::contract::{Judged, PageSource};
+use crate::page::session::muscles;
 use crate::page::session::results::Results;
 use ambulo::analysis::{LEAST_MARKER_SHARE, PredictionCheck};
 use ambulo::model::Region;
@@ -38,6 +39,7 @@ pub(super) fn facts(results: &Results) -> Vec<Judged> {
     facts.extend(subject.iter().flat_map(|subject| markers(&subject.markers)));
     facts.extend(prediction.iter().flat_map(|prediction| &prediction.checks).map(check));
     facts.extend(walk.iter().flat_map(of_walk));
+    facts.extend(muscles::facts(results));
     facts
 }
 

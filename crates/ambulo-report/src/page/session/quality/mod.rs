@@ -8,6 +8,7 @@ mod tables;
 
 pub(super) use facts::{none_allowed, plain};
 
+use super::muscles;
 use super::results::Results;
 use crate::clinical::ClinicalQuantity;
 use crate::page::block::Block;
@@ -30,7 +31,7 @@ pub(super) fn quality(results: &Results, quantities: &[ClinicalQuantity], block:
     Quality {
         facts: facts::facts(results),
         groups: groups.into_iter().flatten().collect(),
-        tables: tables::tables(results, quantities),
+        tables: tables::tables(results, quantities).into_iter().chain(muscles::reserve_table(results)).collect(),
         findings: findings(&results.summary.findings),
         assumptions: results.summary.subject.as_ref().map_or_else(Vec::new, |subject| subject.assumptions.clone()),
     }
@@ -66,5 +67,6 @@ pub(super) fn over_time([id, title, unit]: [&str; 3], directions: [&str; 2], tra
         empty: traces.is_empty().then(|| "The files contain no data for this.".to_owned()),
         traces,
         red: Vec::new(),
+        activity: None,
     }
 }

@@ -1,0 +1,66 @@
+//! Of a part of a recording, only the frames near it are fitted, and the results are those of the whole recording.
+
+use crate::shared_data::data;
+use ambulo::findings::Findings;
+use ambulo::model::anthropometry::SegmentTable;
+use ambulo::motion::Window;
+use ambulo::study::{
+    self, LaboratoryFile, MarkerBody, MarkerSource, Outcome, Settings, Source, StandingTrial, Tracking,
+};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The part that is analysed [s]; filters at 6 Hz and events need a second around it.
+const PART: [f64; 2] = [3.0, 3.6];
+/// Differences of angles [rad] and moments [N.m/kg]: the fit of a frame ends within 1e-6 of its minimum, and the filter
+/// lets through what changes over 1/6 s.
+const ANGLE: f64 = 1e-4;
+const MOMENT: f64 = 1e-2;
+
+fn walk(data: &Path, window: Window) -> Outcome {
+    let read = |name: &str| {
+        let bytes = std::fs::read(data.join("motonms-unipd").join(name)).unwrap();
+        LaboratoryFile::from_c3d(bytes, name, &mut Findings::default()).unwrap()
+    };
+    let source = Source::markers(MarkerSource {
+        trial: read("Walking1.c3d"),
+        standing: Some(Arc::new(StandingTrial::new(read("Static1.c3d")))),
+        body: MarkerBody::BuiltIn {
+            table: SegmentTable::DeLevaMale,
+            mass_kg: Some(82.6),
+            height_m: Some(1.75),
+            set: None,
+        },
+        plates: Vec::new(),
+    });
+    study::run(source, &Settings { window, ..Settings::default() }, &mut Findings::default()).unwrap()
+}
+
+fn fitted_frames(outcome: &Outcome) -> usize {
+    let Some(Tracking::Markers(tracked)) = &outcome.tracking else { panic!("no markers") };
+    tracked.body.fit.motion.times.len()
+}
+
+#[test]
+fn a_part_of_a_recording_has_the_results_of_the_whole_and_is_fitted_alone() {
+    let Some(data) = data() else { return };
+    let whole = walk(&data, Window::default());
+    let part = walk(&data, Window { from_s: Some(PART[0]), to_s: Some(PART[1]) });
+    let [all, some] = [&whole, &part].map(fitted_frames);
+    println!("fitted: {some} of {all} frames");
+    assert!((some as f64) < 0.8 * all as f64, "{some} of {all}");
+    let [long, short] = [&whole, &part].map(|outcome| outcome.analysis.trajectory.grid());
+    let first = ((short.start_s - long.start_s) / long.step_s).round() as usize;
+    assert!((long.time(first) - short.start_s).abs() < 1e-9, "both have the same frames");
+    let (mut angle, mut moment) = (0.0_f64, 0.0_f64);
+    for id in whole.body.coordinate_ids().skip(6) {
+        let [of_whole, of_part] = [&whole, &part].map(|outcome| outcome.analysis.trajectory.values(id));
+        let [before, after] = [&whole, &part].map(|outcome| &outcome.analysis.forces.generalized[id.index()]);
+        for frame in 0..short.frames {
+            angle = angle.max((of_whole[first + frame] - of_part[frame]).abs());
+            moment = moment.max((before[first + frame] - after[frame]).abs() / whole.analysis.mass.kg);
+        }
+    }
+    println!("largest difference: {angle:.1e} rad, {moment:.1e} N.m/kg");
+    assert!(angle < ANGLE && moment < MOMENT, "{angle} rad, {moment} N.m/kg");
+}
