@@ -1,8 +1,8 @@
 //! Activations of static optimisation against recorded EMG, and how well OpenSim's agree with it.
 //!
 //! `testdata/emg_opensim.csv` has the correlations of OpenSim 4.6 on the same frames of the same files
-//! (`xtask/measure/peers/opensim_emg.py`). Two public recordings: a healthy man on a treadmill with seven muscles of the
-//! left leg (MatlabStaticOptimization), and a person walking and running with nine of the right leg (CEINMS-RT).
+//! (`xtask/measure/peers/opensim_emg.py`). Two public recordings: a healthy man on a treadmill with EMG of the left leg
+//! (MatlabStaticOptimization), and a person walking and running with EMG of the right leg (CEINMS-RT).
 
 use crate::muscle_models::{self, MuscleModel};
 use crate::shared_data;
