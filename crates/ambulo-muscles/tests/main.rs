@@ -7,6 +7,7 @@
 mod muscle_models;
 mod shared_data;
 mod walks;
+mod wrap_models;
 
 mod built_in;
 mod contact_loads;
@@ -29,5 +30,4 @@ mod solver;
 mod strength;
 mod wrap_chain;
 mod wrap_closed_forms;
-mod wrap_models;
 mod wrap_opensim;
