@@ -18,6 +18,7 @@
 use super::tangents::Derivatives;
 use super::{Arc, Contact, Passage, PathNode, PathSurface};
 use ambulo_body::numerics::DenseLu;
+use ambulo_body::numerics::elementary::atan2;
 use ambulo_body::spatial::{Mat3, Vec3};
 
 /// Sweeps of closed forms and of Newton's method before the best path so far is taken.
@@ -97,23 +98,26 @@ impl Chain {
         }
     }
 
-    /// Tries all combinations of sides of the cylinders whose side is in doubt, and keeps the shortest path.
+    /// Tries all combinations of sides of the touched cylinders whose side is in doubt, and keeps the shortest path. A
+    /// cylinder that is not touched does not lengthen the path on its present side.
     fn try_other_sides(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
         self.doubtful.clear();
-        for (index, surface) in surfaces.iter().enumerate() {
-            if surface.covers(part) && surface.has_two_sides() && self.largest_turn(ends, index, surface) > DOUBTFUL_RAD
-            {
+        for at in 0..self.links.len() {
+            let index = self.links[at].surface;
+            let [from, to] = self.around(ends, at).map(|place| surfaces[index].inside(place));
+            let turn = atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+            if surfaces[index].has_two_sides() && turn.abs() > DOUBTFUL_RAD {
                 self.doubtful.push(index);
             }
+        }
+        if self.doubtful.is_empty() {
+            return;
         }
         self.doubtful.truncate(MOST_DOUBTFUL);
         let mut least = self.merit(ends);
         self.best_links.clone_from(&self.links);
         self.best_contacts.clone_from(&self.contacts);
         for sides in 0..1_usize << self.doubtful.len() {
-            if self.doubtful.is_empty() {
-                return;
-            }
             for (bit, index) in self.doubtful.iter().enumerate() {
                 self.senses[*index] = Some(if sides >> bit & 1 == 0 { 1.0 } else { -1.0 });
             }
@@ -127,18 +131,6 @@ impl Chain {
         }
         std::mem::swap(&mut self.links, &mut self.best_links);
         std::mem::swap(&mut self.contacts, &mut self.best_contacts);
-    }
-
-    /// The largest angle around a cylinder by which the path turns between two other nodes [rad].
-    fn largest_turn(&self, ends: [Vec3; 2], index: usize, surface: &PathSurface) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut from = ends[0];
-        let tos = self.links.iter().filter(|link| link.surface != index).map(|link| [link.from, link.to]);
-        for [to, next] in tos.chain([[ends[1]; 2]]) {
-            largest = largest.max(surface.inside(from).xy().angle(&surface.inside(to).xy()));
-            from = next;
-        }
-        largest
     }
 
     /// Number of surfaces that are passed over, and length between both ends [m]: less is better.
@@ -209,6 +201,11 @@ impl Chain {
         [from, self.links.get(at).map_or(ends[1], |link| link.from)]
     }
 
+    /// The places between which the arc at this position lies.
+    fn around(&self, ends: [Vec3; 2], at: usize) -> [Vec3; 2] {
+        [self.neighbours(ends, at)[0], self.neighbours(ends, at + 1)[1]]
+    }
+
     /// Newton's method on the tangent points while surfaces and order stay.
     fn newton(&mut self, ends: [Vec3; 2], surfaces: &[PathSurface]) {
         let gaps = self.links.len().saturating_sub(1);
@@ -243,7 +240,7 @@ impl Chain {
         (0..size).for_each(|k| self.matrix.row_mut(k)[k] = 1.0);
         for at in 0..self.links.len() {
             let link = self.links[at];
-            let neighbours = [self.neighbours(ends, at)[0], self.neighbours(ends, at + 1)[1]];
+            let neighbours = self.around(ends, at);
             let Some((arc, slopes)) = surfaces[link.surface].tangents(neighbours, self.senses[link.surface]) else {
                 return false;
             };
