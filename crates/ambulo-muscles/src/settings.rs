@@ -10,7 +10,7 @@ use crate::wrap::WrapRule;
 /// surfaces are exact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MuscleSettings {
-    /// Exponent p of the activations in the cost, more than 1 and at most 6.
+    /// Exponent p of the activations in the cost, more than 1 and at most 10.
     pub exponent: f64,
     /// Weights of muscles in the cost; all others have weight 1.
     pub weights: Vec<MuscleWeight>,

@@ -130,7 +130,7 @@ fn a_reserve_weighs_as_its_optimal_force() {
 
 #[test]
 fn optimality_conditions_hold_for_every_exponent() {
-    for exponent in [1.5, 2.0, 3.0, 4.0, 6.0] {
+    for (exponent, allowed) in [(1.5, 1e-10), (2.0, 1e-10), (3.0, 1e-10), (4.0, 1e-10), (6.0, 1e-10), (10.0, 1e-8)] {
         let (mut steps, mut most) = (0, 0);
         for seed in 0..200 {
             let problem = random_problem(seed, exponent);
@@ -138,13 +138,13 @@ fn optimality_conditions_hold_for_every_exponent() {
             let convergence = optimizer.solve(&problem.tau);
             let violation = problem.violation(optimizer.controls(), optimizer.multipliers());
             assert!(convergence.is_met, "p {exponent} seed {seed}: {convergence:?}");
-            assert!(violation < 1e-10, "p {exponent} seed {seed}: {violation} {convergence:?}");
+            assert!(violation < allowed, "p {exponent} seed {seed}: {violation} {convergence:?}");
             steps += convergence.iterations;
             most = most.max(convergence.iterations);
             // What must be noticed: another control.
             let mut moved = optimizer.controls().to_vec();
-            moved[3] = if moved[3] > 0.5 { moved[3] - 1e-6 } else { moved[3] + 1e-6 };
-            assert!(problem.violation(&moved, optimizer.multipliers()) > 1e-10, "p {exponent} seed {seed}");
+            moved[3] = if moved[3] > 0.5 { moved[3] - 1e-4 } else { moved[3] + 1e-4 };
+            assert!(problem.violation(&moved, optimizer.multipliers()) > allowed, "p {exponent} seed {seed}");
         }
         println!("exponent {exponent}: {:.1} steps from nothing, at most {most}", steps as f64 / 200.0);
     }

@@ -66,7 +66,7 @@ pub struct Actuator {
 #[non_exhaustive]
 pub enum OptimizationError {
     /// An exponent without a unique optimum.
-    #[error("the exponent of the activations is {found}; expected more than 1 and at most 6")]
+    #[error("the exponent of the activations is {found}; expected more than 1 and at most 10")]
     Exponent {
         /// Found value.
         found: f64,
@@ -127,7 +127,7 @@ impl Optimizer {
     /// # Errors
     /// Exponents, weights and bounds without a unique optimum: see [`OptimizationError`].
     pub fn new(coordinates: usize, actuators: Vec<Actuator>, exponent: f64) -> Result<Optimizer, OptimizationError> {
-        if !(exponent > 1.0 && exponent <= 6.0) {
+        if !(exponent > 1.0 && exponent <= 10.0) {
             return Err(OptimizationError::Exponent { found: exponent });
         }
         for (index, &Actuator { low, high, weight }) in actuators.iter().enumerate() {

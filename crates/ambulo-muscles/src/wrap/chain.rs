@@ -7,8 +7,8 @@
 //!   p_j = T2_j(p_(j-1), q_j),   q_j = T1_(j+1)(p_j, q_(j+1)),
 //! where T1 and T2 are the tangent points of the closed form, with derivatives in closed form too.
 //!
-//! A cylinder that may be passed on either side is passed on the side that is shorter between its neighbours. Where that
-//! is not clear by far, all combinations of sides are tried, and the shortest path is taken.
+//! A cylinder that may be passed on either side is passed on the side that is shorter between its neighbours. Where
+//! that is not clear by far, all combinations of sides are tried, and the shortest path is taken.
 //!
 //! The search begins anew in every posture, so the path does not depend on earlier postures.
 //!
@@ -29,7 +29,9 @@ const MOST_STEPS: usize = 8;
 const SETTLED_M: f64 = 1e-14;
 /// A move after which the search has ended, if a sweep moves tangent points no more than this [m].
 const ENDED_M: f64 = 1e-13;
-
+/// Length that a path may still lose after a sweep that moved no tangent point by more than 1 m [m]: an end of an arc
+/// changes the length by at most twice its move, and the moves shrink geometrically. Larger is safer and slower.
+const MOST_GAIN: f64 = 32.0;
 /// Turn around a cylinder above which the path on its other side is tried [rad]; half a turn is as far on both sides.
 const DOUBTFUL_RAD: f64 = 2.0;
 /// Cylinders whose sides are tried.
@@ -50,6 +52,8 @@ struct Link {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Chain {
     links: Vec<Link>,
+    /// The surfaces of the arcs before a sweep.
+    order: Vec<usize>,
     contacts: Vec<Contact>,
     /// The sense of turning around each cylinder, where it is prescribed.
     senses: Vec<Option<f64>>,
@@ -71,7 +75,7 @@ impl Chain {
     ) {
         self.senses.clear();
         self.senses.resize(surfaces.len(), None);
-        self.solve(ends, part, surfaces);
+        self.solve(ends, part, surfaces, (usize::MAX, f64::INFINITY));
         self.try_other_sides(ends, part, surfaces);
         contacts.iter_mut().zip(&self.contacts).for_each(|(kept, found)| super::note(kept, *found));
         for link in &self.links {
@@ -82,14 +86,17 @@ impl Chain {
         }
     }
 
-    /// The shortest path with the prescribed senses.
-    fn solve(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
+    /// The shortest path with the prescribed senses; the search ends early where it cannot become better than a path
+    /// with the merit `least`.
+    fn solve(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface], least: (usize, f64)) {
         self.links.clear();
         for _ in 0..MOST_SWEEPS {
             self.contacts.clear();
             self.contacts.resize(surfaces.len(), Contact::Free);
             let (changed, moved) = self.sweep(ends, part, surfaces);
-            if !changed && moved <= ENDED_M {
+            let (passed_over, length) = self.merit(ends);
+            let is_worse = passed_over >= least.0 && length - least.1 > MOST_GAIN * moved;
+            if !changed && (moved <= ENDED_M || is_worse) {
                 return;
             }
             if !changed {
@@ -121,7 +128,7 @@ impl Chain {
             for (bit, index) in self.doubtful.iter().enumerate() {
                 self.senses[*index] = Some(if sides >> bit & 1 == 0 { 1.0 } else { -1.0 });
             }
-            self.solve(ends, part, surfaces);
+            self.solve(ends, part, surfaces, least);
             let merit = self.merit(ends);
             if merit.0 < least.0 || merit.0 == least.0 && merit.1 < least.1 - SHORTER_M {
                 least = merit;
@@ -147,25 +154,23 @@ impl Chain {
 
     /// Puts every surface's arc anew; returns whether surfaces or their order changed, and the largest move [m].
     fn sweep(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) -> (bool, f64) {
-        let (mut changed, mut moved) = (false, 0.0_f64);
+        let mut moved = 0.0_f64;
+        self.order.clear();
+        self.order.extend(self.links.iter().map(|link| link.surface));
         for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.covers(part)) {
-            let old = self.links.iter().position(|link| link.surface == index).map(|at| (at, self.links.remove(at)));
+            let old = self.links.iter().position(|link| link.surface == index).map(|at| self.links.remove(at));
             let mut contact = Contact::Free;
             let new = self.best(ends, index, surface, &mut contact);
             self.contacts[index] = contact;
-            match (old, new) {
-                (Some((old_at, old)), Some((at, new))) => {
-                    changed |= old_at != at;
-                    moved = moved.max((old.from - new.from).norm()).max((old.to - new.to).norm());
-                }
-                (None, None) => {}
-                _ => changed = true,
+            if let (Some(old), Some((_, new))) = (old, new) {
+                moved = moved.max((old.from - new.from).norm()).max((old.to - new.to).norm());
             }
             if let Some((at, link)) = new {
                 self.links.insert(at, link);
             }
         }
-        (changed, moved)
+        // Within a sweep two arcs may change places and change them back.
+        (!self.order.iter().copied().eq(self.links.iter().map(|link| link.surface)), moved)
     }
 
     /// The arc on a surface and its place among the other arcs: in the straight part that runs deepest through the

@@ -1,5 +1,5 @@
-//! Times inverse dynamics, synthetic walks, predicted ground forces, the stages of an analysis and the `ambulo`
-//! command, and measures its memory: `cargo xtask bench`.
+//! Times inverse dynamics, muscle forces, synthetic walks, predicted ground forces, the stages of an analysis and the
+//! `ambulo` command, and measures its memory: `cargo xtask bench`.
 //!
 //! First, the torques of the reference human are compared with those of another engine, because the time of a wrong
 //! result is meaningless. If other engines are installed (see `peers`), they run right after ours, and the ratios are
@@ -13,6 +13,7 @@ mod gait;
 pub(crate) mod human;
 pub(crate) mod markers;
 mod memory;
+mod muscles;
 mod prediction;
 pub(crate) mod simulation;
 pub(crate) mod timing;
@@ -65,6 +66,7 @@ pub(crate) fn run() -> Result<(), String> {
         }
         None => println!("main job: skipped: no data"),
     }
+    rows.extend(muscles::bench()?);
     let path = write_csv(&rows)?;
     println!("\nwritten: {}", path.display());
     Ok(())
