@@ -33,7 +33,7 @@ fn against_opensim(name: &str, kind: &str, wraps: usize, rule: WrapRule) -> Opti
                 continue;
             }
             let touching = paths.contacts(i).iter().filter(|contact| **contact == Contact::Touching).count();
-            worst.otherwise += usize::from(touching as f64 != table.number(row, "n_wraps_active"));
+            worst.otherwise += usize::from(touching.to_string() != table.text(row, "n_wraps_active"));
             worst.paths += 1;
             let longer = table.number(row, "length_m") - paths.lengths()[i];
             worst.longer = worst.longer.max(longer);
@@ -152,6 +152,9 @@ fn between(model: &Model, from: &State, to: &State, share: f64) -> State {
     state
 }
 
+/// Lengths of all muscles, their arms about free coordinates, and the posture.
+type Frame = (Vec<f64>, Vec<Vec<f64>>, Vec<f64>);
+
 /// Along a motion in small steps, lengths change by the mean of the moment arms at both ends of a step.
 fn largest_jump(name: &str, rule: WrapRule) -> Option<(f64, String)> {
     const STEPS: usize = 20;
@@ -161,7 +164,7 @@ fn largest_jump(name: &str, rule: WrapRule) -> Option<(f64, String)> {
     let free: Vec<_> =
         model.coordinate_ids().filter(|id| matches!(model.coordinates()[id.index()].drive, Drive::Free)).collect();
     let mut worst = (0.0_f64, String::new());
-    let mut last: Option<(Vec<f64>, Vec<Vec<f64>>, Vec<f64>)> = None;
+    let mut last: Option<Frame> = None;
     for pair in states.windows(2) {
         for step in 0..STEPS {
             let state = between(&model, &pair[0], &pair[1], step as f64 / STEPS as f64);
