@@ -5,6 +5,9 @@
 //! | paths | posture, lengths, speeds, moment arms |
 //! | muscle forces | paths, strengths, static optimisation, loads on the bodies |
 //! | whole | muscle forces, and inverse dynamics with them: the reactions of all joints |
+//!
+//! If OpenSim is installed as a peer, its static optimisation and joint reaction of the same walk run right after, and the
+//! ratio is printed.
 
 use super::Row;
 use super::timing::{Timing, cpu_us};
@@ -26,10 +29,12 @@ use ambulo_muscles::solver::MuscleSolver;
 use std::fs;
 use std::hint::black_box;
 
-/// The walks: name, folder, model, motion, plates, their document, and the most that a frame may take [us].
-const WALKS: [(&str, [&str; 5], f64); 2] = [
+/// The walks: name, name for OpenSim's script, folder, model, motion, plates, their document, and the most that a frame
+/// may take [us].
+const WALKS: [(&str, &str, [&str; 5], f64); 2] = [
     (
         "Gait2392, 92 muscles",
+        "gait2392",
         [
             "opensim-gait2392-subject01",
             "subject01_simbody.osim",
@@ -41,6 +46,7 @@ const WALKS: [(&str, [&str; 5], f64); 2] = [
     ),
     (
         "Rajagopal, 80 muscles, 46 wraps",
+        "rajagopal",
         [
             "opensim-rajagopal-walk",
             "subject_walk_scaled.osim",
@@ -65,7 +71,7 @@ struct Walk {
 #[expect(clippy::print_stdout, reason = "the table is the command's result")]
 pub(super) fn bench() -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
-    for (name, files, most_us) in WALKS {
+    for (name, short, files, most_us) in WALKS {
         let folder = workspace::data().join("data").join(files[0]);
         if !folder.join(files[1]).is_file() {
             println!("muscle forces, {name}: skipped: no data");
@@ -78,8 +84,26 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
         let whole = own.last().map_or(f64::INFINITY, |row| row.timing.median);
         println!("required: at most {most_us} us: {}", super::verdict(whole, most_us));
         rows.extend(own);
+        match opensim_us(short) {
+            Ok(us) => {
+                println!("OpenSim, static optimisation and joint reaction: {us:.0} us/frame, {:.0} times ours", us / whole);
+                let timing = Timing::single(us);
+                rows.push(Row { quantity: format!("OpenSim, {name}"), unit: "us/frame", timing });
+            }
+            Err(reason) => println!("OpenSim was not timed: {reason}"),
+        }
     }
     Ok(rows)
+}
+
+/// CPU time per frame of OpenSim's tools for the same walk [us].
+fn opensim_us(short: &str) -> Result<f64, String> {
+    let env = workspace::peers_env();
+    let mut program = workspace::peer_program(env.as_deref(), "opensim", "opensim_muscles.py")?;
+    let done = program.arg(workspace::data().join("data")).arg(short).output().map_err(|e| e.to_string())?;
+    let text = String::from_utf8_lossy(&done.stdout);
+    let us = text.split_whitespace().nth(1).and_then(|word| word.parse().ok());
+    us.ok_or_else(|| format!("no time in its output: {}", String::from_utf8_lossy(&done.stderr).trim()))
 }
 
 impl Walk {
