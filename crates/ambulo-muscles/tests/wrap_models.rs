@@ -1,8 +1,10 @@
 //! Paths over surfaces of whole models against OpenSim 4.6, and along motions.
 
-use crate::muscle_models::{MuscleModel, State, Table, load, postures};
+use crate::muscle_models::{MuscleModel, State, Table, load, postures, read};
+use crate::shared_data::data;
 use ambulo_body::model::{CoordinateId, Drive, Model};
 use ambulo_muscles::path::PathWorkspace;
+use ambulo_muscles::set::{MuscleSet, WrapShape};
 use ambulo_muscles::wrap::{Contact, WrapRule};
 
 /// Largest differences from OpenSim.
@@ -71,6 +73,42 @@ fn exact_paths_over_one_cylinder_are_near_opensims() {
         // It must fail against the paths by OpenSim's rule where those are longer.
         assert!(found.longer > 1e-5);
     }
+}
+
+/// The paths over spheres of a shoulder, which are springs there.
+#[test]
+fn paths_over_the_spheres_of_a_shoulder_agree_with_opensim() {
+    let Some(data) = data() else { return };
+    let text = std::fs::read_to_string(data.join("muscles/opensim46/models/shoulder.osim")).unwrap();
+    let MuscleModel { model, set, .. } = read(text.replace("PathSpring", "Thelen2003Muscle").as_bytes());
+    let table = Table::read("paths_shoulder.csv").unwrap();
+    let worst = |set: &MuscleSet, rule: WrapRule| {
+        let mut paths = PathWorkspace::new(&model, set, rule);
+        let mut rows = table.rows.iter();
+        let (mut worst, mut touching) = (0.0_f64, 0);
+        for (_, state) in postures("shoulder", &model).unwrap() {
+            paths.update(state.posture());
+            for (i, muscle) in set.muscles.iter().enumerate() {
+                let row = rows.find(|row| table.text(row, "path") == muscle.name).unwrap();
+                worst = worst.max((paths.lengths()[i] - table.number(row, "length_m")).abs());
+                touching += usize::from(paths.contacts(i).contains(&Contact::Touching));
+            }
+        }
+        println!("{rule:?}: {touching} paths touch a sphere, lengths within {worst:.1e} m");
+        (worst, touching)
+    };
+    for rule in [WrapRule::Exact, WrapRule::OpenSim] {
+        let (length, touching) = worst(&set, rule);
+        assert!(length < 1e-8 && touching == 94, "{length:e} {touching}");
+    }
+    // It must fail for spheres that are a micrometre larger.
+    let mut larger = set.clone();
+    for wrap in &mut larger.wraps {
+        if let WrapShape::Sphere { radius } = &mut wrap.shape {
+            *radius += 1e-6;
+        }
+    }
+    assert!(worst(&larger, WrapRule::Exact).0 > 1e-8);
 }
 
 /// OpenSim's length of a path over two surfaces may be shorter than the shortest path, because of a fault.
