@@ -90,3 +90,13 @@ fn every_muscle_of_the_models_of_opensim_is_known_with_its_side() {
         }
     }
 }
+
+#[test]
+fn every_muscle_of_the_built_in_body_is_known() {
+    let table = include_str!("../data/leg_muscles.toml");
+    let names: Vec<&str> = table.lines().filter_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"')).collect();
+    assert_eq!(names.len(), 43);
+    for name in names {
+        assert!(matches!(of(&format!("{name}_l")), Some((_, Some(Side::Left)))), "{name}");
+    }
+}

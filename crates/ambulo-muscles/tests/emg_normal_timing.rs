@@ -30,11 +30,12 @@ const HEADER: &str = "\
 #
 # When muscles of the right leg are on in walking: share of persons in whom the muscle is on in each percent of the
 # cycle. A percent is the interval from it to the next; the cycle begins with the strike of the right foot.
-# Source: C. Schreiber, F. Moissenet 2019, \"A multimodal dataset of human gait at different walking speeds established on
-# injury-free adult participants\" (Scientific Data 6:111, doi 10.1038/s41597-019-0124-4), licence CC BY 4.0: ten adults at their own speed (trials C4), one
-# cycle each between the foot strikes of the files. Only shares of persons are kept here.
-# On: the envelope (band-pass 20 to 450 Hz, rectified, low-pass 6 Hz) is above a fifth of its maximum in the cycle, for at
-# least 5 % of the cycle. A channel without the signal of a muscle is not counted.
+# Source: C. Schreiber, F. Moissenet 2019, \"A multimodal dataset of human gait at different walking speeds
+# established on injury-free adult participants\" (Scientific Data 6:111, doi 10.1038/s41597-019-0124-4), licence
+# CC BY 4.0: ten adults at their own speed (trials C4), one cycle each between the foot strikes of the files. Only
+# shares of persons are kept here.
+# On: the envelope (band-pass 20 to 450 Hz, rectified, low-pass 6 Hz) is above a fifth of its maximum in the cycle,
+# for at least 5 % of the cycle. A channel without the signal of a muscle is not counted.
 ";
 
 /// Trials at own speed, by person.
@@ -107,9 +108,9 @@ fn muscles_are_on_when_textbooks_say() {
         let share = &normal_timing(muscle).unwrap().share_on[range.clone()];
         share.iter().sum::<f64>() / range.len() as f64
     };
-    // Phases of gait in texts (Perry and Burnfield 2010, unverified page): calf in mid and terminal stance, quadriceps in
-    // loading response and late swing, tibialis anterior in swing and loading response, hamstrings in late swing, gluteal
-    // muscles in loading response and mid-stance.
+    // Phases of gait in texts (Perry and Burnfield 2010, unverified page): calf in mid and terminal stance, quadriceps
+    // in loading response and late swing, tibialis anterior in swing and loading response, hamstrings in late swing,
+    // gluteal muscles in loading response and mid-stance.
     for (muscle, on, off) in [
         (M::Soleus, 30..50, 70..85),
         (M::GastrocnemiusMedialis, 30..45, 70..85),

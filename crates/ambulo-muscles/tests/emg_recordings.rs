@@ -115,7 +115,7 @@ fn unnamed_channels_are_listed() {
     assert!((1..=16).all(|k| recording.unknown.contains(&format!("EMG{k}"))), "{:?}", recording.unknown);
 }
 
-/// Folder, trials of walking, the leg with electrodes, and muscles found on the other one because an electrode is loose.
+/// Folder, trials of walking, the leg with electrodes, and channels of the other leg with artefacts in one trial.
 const ONE_LEG: [(&str, &[&str], Side, &[&str]); 6] = [
     ("biomechzoo-HC002D", &["HC002D06.c3d", "HC002D25.c3d"], Side::Right, &[]),
     ("biomechzoo-HC031A", &["HC031A06.c3d", "HC031A23.c3d"], Side::Right, &[]),

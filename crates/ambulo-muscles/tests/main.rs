@@ -5,9 +5,9 @@
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
 mod muscle_models;
-mod people;
 mod shared_data;
 mod walks;
+mod wrap_models;
 
 mod built_in;
 mod contact_loads;
@@ -23,11 +23,11 @@ mod import;
 mod loads;
 mod optimization;
 mod paths;
+mod people;
 mod round_trip;
 mod scaling;
 mod solver;
 mod strength;
 mod wrap_chain;
 mod wrap_closed_forms;
-mod wrap_models;
 mod wrap_opensim;

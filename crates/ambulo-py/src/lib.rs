@@ -6,6 +6,7 @@ mod arrow;
 mod calls;
 mod failure;
 mod model;
+mod muscles;
 mod recordings;
 mod request;
 mod results;

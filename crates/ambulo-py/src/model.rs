@@ -6,6 +6,7 @@
 
 use crate::arrays::array_of;
 use crate::failure::{Listed, exception, listed, refused, warn};
+use crate::muscles;
 use crate::recordings::vectors;
 use crate::smoothing::{Cutoff, smoother};
 use ambulo::analysis::feasibility::Person;
@@ -18,6 +19,8 @@ use ambulo::kinematics::{BodyMotion, Trajectory, each_body_motion};
 use ambulo::model::CoordinateId;
 use ambulo::motion::filter::LowPass;
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion, SmoothSettings, Smoother, TimeGrid, Window, smooth};
+use ambulo::muscles::set::MuscleSet;
+use ambulo::muscles::settings::MuscleSettings;
 use ambulo::simulation::synthetic::RATES_HZ;
 use ambulo::spatial::{Vec3, Wrench};
 use ambulo::study::Settings;
@@ -32,7 +35,7 @@ use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyDict};
 use std::hint::black_box;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
 /// Frames of one block of inverse dynamics.
@@ -52,17 +55,32 @@ pub(crate) struct Model {
     findings: Vec<Listed>,
     /// Scratch memory of inverse dynamics that no call is using.
     scratch: Mutex<Vec<Workspace>>,
+    /// The muscles, when they were asked for.
+    muscle_set: OnceLock<Result<MuscleSet, String>>,
 }
 
 #[pymethods]
 impl Model {
+    /// The muscles of the file, or of the built-in body.
+    fn muscle_set(&self, py: Python<'_>) -> PyResult<&MuscleSet> {
+        let set = self.muscle_set.get_or_init(|| muscles::muscles_of(&self.content, &self.model));
+        set.as_ref().map_err(|message| refused(py, message.clone()))
+    }
+
     #[new]
     fn new(py: Python<'_>, data: PyBackedBytes, name: PathBuf) -> PyResult<Model> {
         let mut findings = Findings::default();
         let model = py.detach(|| ambulo_cli::model(&data, &name, &mut findings));
         let model = model.map_err(|failure| exception(py, failure))?;
         let findings = listed(&findings);
-        Ok(Model { name, content: Arc::from(&data[..]), model, findings, scratch: Mutex::default() })
+        Ok(Model {
+            name,
+            content: Arc::from(&data[..]),
+            model,
+            findings,
+            scratch: Mutex::default(),
+            muscle_set: OnceLock::new(),
+        })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (Bound<'py, PyBytes>, PathBuf)) {
@@ -225,6 +243,94 @@ impl Model {
         let motion = self.checked(py, [q.as_array(), rates, accelerations])?;
         let bodies = py.detach(|| self.body_motions(motion, 1.0)).map_err(|message| refused(py, message))?;
         self.body_arrays(py, &bodies)
+    }
+
+    /// Names of the muscles: those in the file of the model, or those of the built-in body.
+    #[getter]
+    fn muscles(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(muscles::names(self.muscle_set(py)?))
+    }
+
+    /// Lengths, lengthening speeds and moment arms of all muscles.
+    ///
+    /// Parameters
+    /// ----------
+    /// q : array_like, shape (frames, coordinates)
+    ///     Coordinates [rad, m]; columns in the order of `coordinates`.
+    /// qd : array_like, shape (frames, coordinates), optional
+    ///     Rates; zero if omitted.
+    /// wraps : {"exact", "opensim"}, optional
+    ///     How paths over surfaces are found.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     ``muscles`` (names); ``length`` [m] and ``speed`` [m/s], shape (frames, muscles), lengthening positive; ``arm`` [m], shape (frames,
+    ///     muscles, coordinates), positive where tension gives a positive generalised force: minus the derivative of the length.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A model without muscles, arrays of other shapes, numbers that are not finite.
+    ///
+    /// Notes
+    /// -----
+    /// Method: docs/MUSCLES.md.
+    #[pyo3(signature = (q, qd=None, wraps="exact"))]
+    fn muscle_paths<'py>(
+        &self,
+        py: Python<'py>,
+        q: MotionArray<'py>,
+        qd: Option<MotionArray<'py>>,
+        wraps: &str,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let still = Array2::zeros(q.as_array().dim());
+        let rates = qd.as_ref().map_or(still.view(), |qd| qd.as_array());
+        let [q, qd, _] = self.checked(py, [q.as_array(), rates, rates])?;
+        muscles::paths(py, &self.model, self.muscle_set(py)?, muscles::wrap_rule(py, wraps)?, [q, qd])
+    }
+
+    /// Muscle forces that give the joint moments with the least sum of the activations to a power, frame by frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// q, qd : array_like, shape (frames, coordinates)
+    ///     Coordinates and rates, as in `inverse_dynamics`.
+    /// moments : array_like, shape (frames, coordinates)
+    ///     Generalised forces [N.m, N], as `inverse_dynamics` returns them.
+    /// exponent : float, optional
+    ///     The power, 2 as in OpenSim.
+    /// wraps : {"exact", "opensim"}, optional
+    ///     How paths over surfaces are found.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     ``muscles`` (names); ``activation`` (0 to 1) and ``force`` [N], shape (frames, muscles); ``reserve`` [N.m, N], shape (frames,
+    ///     coordinates): what motors add where muscles are too weak or missing.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A model without muscles, an exponent out of range, arrays of other shapes, numbers that are not finite.
+    ///
+    /// Notes
+    /// -----
+    /// The problem of OpenSim's static optimisation, solved exactly; motors of 1 N.m at joints and 1000 at the root. Method: docs/MUSCLES.md.
+    #[pyo3(signature = (q, qd, moments, exponent=None, wraps="exact"))]
+    fn static_optimization<'py>(
+        &self,
+        py: Python<'py>,
+        q: MotionArray<'py>,
+        qd: MotionArray<'py>,
+        moments: MotionArray<'py>,
+        exponent: Option<f64>,
+        wraps: &str,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let arrays = self.motion(py, [&q, &qd, &moments])?;
+        let mut settings = MuscleSettings { wraps: muscles::wrap_rule(py, wraps)?, ..MuscleSettings::default() };
+        settings.exponent = exponent.unwrap_or(settings.exponent);
+        muscles::optimized(py, &self.model, self.muscle_set(py)?, &settings, arrays)
     }
 
     /// Coordinates that bring the markers of the model closest to recorded ones, frame by frame.

@@ -1,6 +1,7 @@
 //! Quality information on the page: verdicts on part of a motion, friction, uncertainty bands of predictions.
 
 use crate::report_pages::{Shown, predicted, recorded, with_summary};
+use ambulo::analysis::LEAST_MARKER_SHARE;
 use ambulo_formats::table::Table;
 use serde_json::{Value, json};
 
@@ -83,6 +84,25 @@ fn without_ground_forces_there_is_no_verdict_on_the_whole_motion() {
 }
 
 // ---- quality ----
+
+#[test]
+fn the_share_of_used_markers_is_judged_by_the_limit_of_the_analysis() {
+    let mut files = recorded();
+    let least = (100.0 * LEAST_MARKER_SHARE).ceil() as usize;
+    for (used, good) in [(least, true), (least - 1, false)] {
+        with_summary(&mut files, |summary| {
+            let markers =
+                json!({"rms_mm": 10.0, "frames_not_converged": 0, "used": used, "recorded": 100, "errors": []});
+            summary["subject"] = json!({"axes": "", "turn_deg": null, "marker_sets": [], "markers": markers,
+                "segments": [], "plates": [], "plate_corners_m": [], "instrumented_windows_s": [], "events": [],
+                "assumptions": []});
+        });
+        let facts = Shown::of(&files).session()["quality"]["facts"].as_array().unwrap().clone();
+        let fact = facts.iter().find(|fact| fact["label"] == "Markers that the body follows").unwrap();
+        assert_eq!((fact["good"].as_bool(), fact["value"].as_str()), (Some(good), Some(&*format!("{used} of 100"))));
+        assert_eq!(fact["allowed"], format!("at least {:.0} %", 100.0 * LEAST_MARKER_SHARE));
+    }
+}
 
 #[test]
 fn friction_is_drawn_where_the_verdict_judges_it() {

@@ -15,7 +15,7 @@ interface Limb {
 }
 
 /** Opacity of the bodies while muscles are shown inside them. */
-const GLASS = 0.3;
+const GLASS = 0.2;
 
 /** The moving bodies. */
 export class Figure {

@@ -16,8 +16,8 @@ import type { SeriesReader } from "./reader";
 import { sample } from "./timeline";
 
 /** Radius of a muscle at rest and of a fully active one, in heights of the figure. */
-const THIN = 0.0016;
-const THICK = 0.0042;
+const THIN = 0.002;
+const THICK = 0.0065;
 const UP = new Vector3(0, 1, 0);
 
 /** Whether a view has muscles. */

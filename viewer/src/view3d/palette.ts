@@ -56,8 +56,8 @@ export function palette(dark: boolean, compared: boolean): Palette {
     grid: new Color(dark ? "#4c545d" : "#a3adb8"),
     plate: new Color(dark ? "#6f7b88" : "#8d99a6"),
     obstacle: new Color(dark ? "#a58b52" : "#c9a968"),
-    rest: new Color(dark ? "#6d87a3" : "#8299b3"),
-    active: new Color(dark ? "#ff4b3e" : "#b3001b"),
+    rest: new Color(dark ? "#5c7c9c" : "#7d98b5"),
+    active: new Color(dark ? "#ff4b3e" : "#c8001e"),
     sessions: looks.sessions.map(of),
   };
 }

@@ -3,7 +3,7 @@
     python opensim_emg.py DATA [CASE...]
 
 DATA is the folder `muscles` of the recordings; cases are `stanford`, `walk36`, `walk45`, `run81` (default: all). For each case the correlation r of
-every recorded muscle with the activation of the same muscle of the model over the frames of the window is written to
+every recorded muscle with the activation of the same muscle of the model over the frames of the window, without a delay and with one of 0.1 s, is written to
 `crates/ambulo-muscles/tests/testdata/emg_opensim.csv`; the rows of other cases stay. No curve is kept. Requires `pip install opensim numpy`; recorded
 with OpenSim 4.6. `cargo test -p ambulo-muscles emg_against_opensim` compares with it.
 
@@ -22,7 +22,9 @@ import tempfile
 from pathlib import Path
 
 OUT = Path(__file__).parents[3] / "crates/ambulo-muscles/tests/testdata/emg_opensim.csv"
-HEADER = ["case", "from_s", "to_s", "source", "muscle", "frames", "r"]
+HEADER = ["case", "from_s", "to_s", "delay_s", "source", "muscle", "frames", "r"]
+#: How much later than EMG the activation is expected [s].
+DELAYS = (0.0, 0.1)
 STANFORD, CEINMS = "A-stanford-matlabso", "B-ceinms-lowerlimb"
 #: Model, coordinates, forces, EMG, window [s], factor of all masses, prefixes of the forces on the right and the left foot.
 CASES = {
@@ -45,7 +47,7 @@ CASES = {
             58.03 / 75.16,
             ("", "l_"),
         )
-        for name, window in {"walk36": (12.0, 15.6), "walk45": (12.0, 15.3), "run81": (29.5, 31.5)}.items()
+        for name, window in {"walk36": (12.4, 16.0), "walk45": (12.0, 15.3), "run81": (29.5, 31.5)}.items()
     },
 }
 #: The published static optimization of the first recording, with elastic tendons and passive forces, and its window [s].
@@ -124,8 +126,8 @@ def storage(path: Path) -> dict[str, list[float]]:
     return dict(zip(lines[0].split(), map(list, zip(*rows))))
 
 
-def compared(emg: dict[str, list[float]], activations: dict[str, list[float]], window: tuple[float, float]) -> list[tuple[str, int, float]]:
-    """Return muscle, number of frames and r for every column of EMG, at the times of the activations within the window."""
+def compared(emg: dict[str, list[float]], activations: dict[str, list[float]], window: tuple[float, float], delay: float) -> list[tuple[str, int, float]]:
+    """Return muscle, number of frames and r for every column of EMG, at the times of the activations within the window, EMG earlier by a delay."""
     import numpy
 
     times = numpy.array(activations["time"])
@@ -134,7 +136,7 @@ def compared(emg: dict[str, list[float]], activations: dict[str, list[float]], w
     for column in list(emg)[1:]:
         muscle = column.removesuffix("_activation")
         values = next(values for name, values in activations.items() if name in (muscle, f"{muscle}.activation", f"/forceset/{muscle}/activation"))
-        recorded = numpy.interp(times[inside], emg["time"], emg[column])
+        recorded = numpy.interp(times[inside] - delay, emg["time"], emg[column])
         r = numpy.corrcoef(recorded, numpy.array(values)[inside])[0, 1]
         found.append((column, int(inside.sum()), float(r)))
     return found
@@ -159,8 +161,9 @@ def run(data: Path, name: str) -> list[list[str]]:
         sources += [("opensim", activations, short), ("published", storage(data / published), short)]
     rows = []
     for source, values, (first, last) in sources:
-        for muscle, frames, r in compared(emg, values, (first, last)):
-            rows.append([name, f"{first:g}", f"{last:g}", source, muscle, str(frames), f"{r:.4f}"])
+        for delay in DELAYS:
+            for muscle, frames, r in compared(emg, values, (first, last), delay):
+                rows.append([name, f"{first:g}", f"{last:g}", f"{delay:g}", source, muscle, str(frames), f"{r:.4f}"])
     return rows
 
 
@@ -172,7 +175,7 @@ def main(data: Path, names: list[str]) -> None:
             kept = [row for row in csv.reader(file) if row and row[0] not in [*names, "case"]]
     for name in names:
         kept += run(data, name)
-    kept.sort(key=lambda row: (list(CASES).index(row[0]), row[1], row[3]))
+    kept.sort(key=lambda row: (list(CASES).index(row[0]), row[1], row[3], row[4]))
     OUT.parent.mkdir(parents=True, exist_ok=True)
     with open(OUT, "w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEADER, *kept])

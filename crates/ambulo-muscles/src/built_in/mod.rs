@@ -12,27 +12,32 @@
 //! |---|---|---|
 //! | p | a point in the frame of its segment on the reference body | m |
 //! | o, R | origin and axes of the segment frame in the body: table below | m, - |
-//! | s | size over that of the reference: length of thigh or shank; for the pelvis the distance between the markers of the anterior iliac spines where the model has them; otherwise, and for feet, the mean of thigh + shank of both legs | - |
-//! | L, L₀ | length of the path in the neutral posture, with the lengths of the person and of the reference | m |
+//! | s | size of the segment over that of the reference: table below | - |
+//! | L, L₀ | length of the path in the neutral posture, with the sizes of the person and of the reference | m |
 //! | V, V₀ | muscle volume of both legs, 47.05 m h + 1289.6 | cm³ |
-//! | m, h | body mass [kg] and stature [m], both statures from thigh and shank | kg, m |
+//! | m, h | body mass and stature; both statures follow from thigh and shank | kg, m |
 //!
-//! | segment | origin | axes (x forward, y up, z to the right) |
-//! |---|---|---|
-//! | pelvis | hip centre of the side | through the markers of the iliac spines where the model has them, otherwise those of upright standing |
-//! | thigh | hip centre | y from the knee to the hip, z along the axis of the knee |
-//! | shank | knee centre | y from the ankle to the knee, z along the axis of the knee |
-//! | foot | ankle centre | of the flat foot |
-//! | toes | joint of the toes, but as far to the side as on the reference; without this joint the points belong to the foot | of the flat foot |
+//! Axes are x forward, y up and z to the right; legs are thigh + shank, the mean of both sides.
 //!
-//! Left legs are mirror images. A force is a volume over a fibre length times a specific tension, which is assumed to be
-//! that of the reference. Coordinates outside hips, knees and ankles (lumbar joint, arms, toes) have no muscle that is
-//! modelled for them and get an unlimited motor each, with the optimal force of the motors of Rajagopal and others 2016.
+//! | segment | origin | axes | size |
+//! |---|---|---|---|
+//! | pelvis | hip of the side | through the markers of the iliac spines | distance between the anterior markers |
+//! | thigh | hip | y from the knee to the hip, z along the axis of the knee | its length |
+//! | shank | knee | y from the ankle to the knee, z along the axis of the knee | its length |
+//! | foot | ankle | of the flat foot | legs |
+//! | toes | joint of the toes, as far to the side as on the reference | of the flat foot | legs |
 //!
-//! Sources: parameters and paths: the header of the data file. Volume: Handsfield and others 2014 (unverified), as in the
-//! public script of D. Stanev with Rajagopal's rule for forces (read).
-//! Not handled: knees that slide or roll; trunk and arm muscles; children (the volume is a regression on adults).
-//! Pinned by: tests/built_in
+//! Without markers on the spines the pelvis stands upright as the reference and has the size of the legs. Without a
+//! joint of the toes their points belong to the foot. Left legs are mirror images. A force is a volume over a fibre
+//! length times a specific tension, which is assumed to be that of the reference. No muscle is modelled for coordinates
+//! outside hips, knees and ankles (lumbar joint, arms, toes): each has an unlimited motor.
+//!
+//! Sources: parameters and paths: the header of the data file. Volume: Handsfield and others 2014 (unverified), as in
+//! the public script of D. Stanev with Rajagopal's rule for forces (read).
+//! Not handled: knees that slide or roll; trunk and arm muscles; volumes of children (the regression is on adults). A
+//! knee that extends beyond the range of its coordinate has too large arms of the quadriceps, because the patella stands
+//! still there.
+//! Pinned by: tests/built_in/arms.rs, tests/built_in/contact.rs, tests/built_in/persons.rs, tests/built_in/write_table.rs
 
 mod segments;
 mod table;

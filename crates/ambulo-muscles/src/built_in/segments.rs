@@ -115,7 +115,7 @@ impl Leg {
         mirrored(self.side, place)
     }
 
-    /// A place of a segment in the neutral posture, from the hip [m], with the lengths of the person or of the reference.
+    /// A place of a segment in the neutral posture, from the hip [m], with the sizes of the person or of the reference.
     pub(super) fn neutral_place(&self, segment: Segment, place: Vec3, is_own: bool) -> Vec3 {
         let frame = self.frame(segment);
         let (origin, scale) = if is_own { (frame.origins[0], frame.scale) } else { (frame.origins[1], 1.0) };
@@ -140,8 +140,8 @@ struct Pelvis {
 }
 
 impl Pelvis {
-    /// Where the model has markers on the iliac spines, the pelvis has their distance, and the line through them has the
-    /// direction that it has on the reference. Otherwise both pelves stand upright and have sizes as the legs.
+    /// Where the model has markers on the iliac spines, the pelvis has their distance, and the line through them has
+    /// the direction that it has on the reference. Otherwise both pelves stand upright and have sizes as the legs.
     fn find(model: &Model, reference: &Reference, of_legs: f64) -> Option<Pelvis> {
         let tilted = |frame: PelvicFrame, tilt: f64, scale: f64| Pelvis {
             body: frame.pelvis,

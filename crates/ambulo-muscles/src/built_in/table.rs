@@ -50,7 +50,7 @@ pub(super) struct Reference {
     pub(super) shank_m: f64,
     /// Ball of the right foot from the ankle, in the axes of the foot [m].
     pub(super) ball: Vec3,
-    /// Angle by which the line through the markers of the iliac spines is lower in front than the axes of the pelvis [rad].
+    /// Angle by which the line through the markers of the iliac spines falls to the front [rad].
     pub(super) spines_rad: f64,
     /// Distance between the markers of the anterior iliac spines [m].
     pub(super) spines_m: f64,

@@ -70,8 +70,8 @@ pub fn on_off(cycle: &[f64], settings: OnOffSettings) -> Vec<bool> {
     on
 }
 
-/// The bursts of a cycle: from and to [% of the cycle], in the order of their beginnings. A burst across the foot strike
-/// ends at a smaller percentage than it begins.
+/// The bursts of a cycle: from and to [% of the cycle], in the order of their beginnings. A burst across the foot
+/// strike ends at a smaller percentage than it begins.
 #[must_use]
 pub fn bursts(on: &[bool]) -> Vec<[f64; 2]> {
     let percent = |i: usize| 100.0 * i as f64 / on.len() as f64;

@@ -6,14 +6,14 @@
 //! 1/(1 + r^(2n)) with r = tan(π f T)/tan(π a T), so x - L_a(x) has r^(2n)/(1 + r^(2n)): exactly the zero-phase
 //! Butterworth high-pass of the same order and cut-off. There is no other filter here.
 //!
-//! Each recorded stretch is filtered alone. It is extended at its ends by its mirror image, xₖ = x₋ₖ: the odd reflection of
-//! motions would turn the level of a rectified signal about its first sample, which is a random number.
+//! Each recorded stretch is filtered alone. It is extended at its ends by its mirror image, xₖ = x₋ₖ: the odd reflection
+//! of motions would turn the level of a rectified signal about its first sample, which is a random number.
 //!
 //! | code | symbol | unit | |
 //! |---|---|---|---|
 //! | `band_hz` | a, b | Hz | 20 and 450; the gain of both passes there is 1/2 |
 //! | `envelope_hz` | c | Hz | 6 |
-//! | `level` | P₉₉ | unit of the file | 99th percentile over all trials of a visit in which the channel holds a muscle |
+//! | `level` | P₉₉ | unit of the file | 99th percentile over the trials of a visit that hold a muscle |
 //!
 //! Envelopes that programs wrote are recognised ([`super::signal`]) and left alone.
 //! Not handled: signals that were rectified but not smoothed (they are filtered as raw ones), artefacts of movement

@@ -1,18 +1,23 @@
 //! What a channel holds: a raw signal or an envelope; a muscle, or nothing that can be used.
 //!
-//! | rule | threshold | measured in walking (README of the data) |
-//! |---|---|---|
-//! | an envelope: 5th percentile, as a share of the 99th; power above 15 Hz, as a share of the variance; its root mean square frequency | > -0.2; < 0.1; < 40 Hz | raw channels -0.3 or less, or an offset; ≥ 0.4 without drift; ≥ 57 Hz |
-//! | not recorded: samples that are numbers and not held | < 0.5 s | filled ends of trials |
-//! | constant: all samples equal | | zeros |
-//! | saturated: samples equal to the largest or the smallest one | > 0.5 % | loose electrodes ≥ 1 %, others two samples |
-//! | noise: root mean square frequency in the band, as a share of that of white noise | > 0.75 | muscles ≤ 0.67, amplifier noise ≥ 0.75 |
-//! | steady: 95th percentile of the envelope over its 10th | < 3 | muscles ≥ 3.4, noise and mains hum 1.1 to 3 |
+//! | rule | threshold |
+//! |---|---|
+//! | envelope: 5th percentile, as a share of the 99th | > -0.2 |
+//! | and power above 15 Hz, as a share of the variance | < 0.1 |
+//! | and root mean square frequency of what is above 15 Hz | < 40 Hz |
+//! | not recorded: samples that are numbers and not held | < 0.5 s |
+//! | constant: all samples equal | |
+//! | saturated: samples equal to the largest or the smallest one | > 0.5 % |
+//! | noise: root mean square frequency in the band, as a share of that of white noise | > 0.75 |
+//! | steady: 95th percentile of the envelope over its 10th | < 3 |
 //!
+//! The thresholds lie between muscles and channels without electrodes in the walking trials of tests/emg_recordings.rs,
+//! which prints what each channel is.
 //! Of an envelope of a file only the rules for too few and equal samples are asked.
 //!
-//! √(Σ f² P / Σ P) = rate/π asin(½ √(Σ (xₖ₊₁ - xₖ)² / Σ xₖ²)) up to the spread of P, the root mean square frequency;
-//! for white noise between a and b it is √((b³ - a³)/(3 (b - a))).
+//! The root mean square frequency √(Σ f² P / Σ P) of a signal x with power P at frequency f is computed from its steps:
+//!
+//! rate/π asin(½ √(Σ (xₖ₊₁ - xₖ)² / Σ xₖ²)),   for white noise between a and b: √((b³ - a³)/(3 (b - a)))
 //!
 //! Pinned by: tests/emg_signals.rs, tests/emg_recordings.rs
 

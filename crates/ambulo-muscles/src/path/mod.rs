@@ -6,13 +6,13 @@
 //! the path:
 //!
 //!   r = ω · n + v · f + Σ f_point · R dp/dq          = -dL/dq       [m, or 1 for a coordinate that is a length]
-//!   dL/dt = -Σ (f_point · v_point)                                  [m/s]
+//!   dL/dt = Σ over parts e · (v_end - v_begin)                      [m/s]
 //!
-//! where p is the place of a moving point on its body and v_point contains its own motion. Pulls are summed from the
-//! ends of the body towards its root, so that nothing is differentiated. For a joint whose speeds are angular
-//! velocities the arms belong to these, as the generalised forces of inverse dynamics do. The arm about a coordinate
-//! that leads others by couplers contains theirs, Σ r dq_follower/dq_leader, so only coordinates without a leader have
-//! arms (OpenSim's `MomentArmSolver`).
+//! where e is the direction of a straight part, p is the place of a moving point on its body and v of such a point
+//! contains its own motion. Pulls are summed from the ends of the body towards its root, so that nothing is
+//! differentiated. For a joint whose speeds are angular velocities the arms belong to these, as the generalised forces
+//! of inverse dynamics do. The arm about a coordinate that leads others by couplers contains theirs, Σ r
+//! dq_follower/dq_leader, so only coordinates without a leader have arms (OpenSim's `MomentArmSolver`).
 //!
 //! | code       | symbol | unit  | shape                                                      |
 //! |------------|--------|-------|------------------------------------------------------------|
@@ -265,8 +265,10 @@ impl PathWorkspace {
         let nodes = self.routes[muscle].nodes();
         let mut anchors = points.iter();
         let mut before = Vec3::zeros();
+        let mut speed = 0.0;
+        let mut last: Option<(&PathNode, Vec3)> = None;
         for (i, node) in nodes.iter().enumerate() {
-            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| direction(node, next, self.rule));
+            let after = nodes.get(i + 1).map_or(Vec3::zeros(), |next| pull_towards(node, next, self.rule));
             let pull = after - before;
             before = after;
             let slot = match node.surface {
@@ -279,13 +281,15 @@ impl PathWorkspace {
             };
             wrenches[slot].force += pull;
             wrenches[slot].moment += (node.acts_at - self.about).cross(&pull);
-        }
-        let mut speed = 0.0;
-        for (slot, wrench) in plan.slots.iter().zip(&*wrenches) {
-            if let Some(body) = slot.body {
+            let velocity = plan.slots[slot].body.map_or(Vec3::zeros(), |body| {
                 let motion = &self.sweep.bodies()[body];
-                speed -= wrench.about(self.about - motion.center).power(&motion.twist);
+                motion.twist.velocity_at(node.acts_at - motion.center)
+            });
+            if let Some((from, slower)) = last {
+                // The ends of an arc are on one body: its chord changes only where OpenSim takes other places for it.
+                speed += direction(from, node).dot(&(velocity - slower));
             }
+            last = Some((node, velocity));
         }
         let gears = &mut self.gears[plan.first_gear..plan.first_gear + plan.gears.len()];
         for point in &plan.moving {
@@ -326,14 +330,14 @@ impl PathWorkspace {
     }
 }
 
-/// Unit vector from a node to the next; zero along an arc, and between nodes in one place.
-fn direction(node: &PathNode, next: &PathNode, rule: WrapRule) -> Vec3 {
+/// Pull of unit tension on a node towards the next: along a straight part, zero along an arc.
+fn pull_towards(node: &PathNode, next: &PathNode, rule: WrapRule) -> Vec3 {
     // Such a part has no effect unless its pulls are not in balance, as in OpenSim, which leaves it out.
-    if rule == WrapRule::OpenSim && node.body == next.body && node.surface.or(next.surface).is_some() {
-        return Vec3::zeros();
-    }
-    match node.arc {
-        Some(_) => Vec3::zeros(),
-        None => (next.place - node.place).try_normalize(f64::MIN_POSITIVE).unwrap_or_default(),
-    }
+    let is_idle = rule == WrapRule::OpenSim && node.body == next.body && node.surface.or(next.surface).is_some();
+    if node.arc.is_some() || is_idle { Vec3::zeros() } else { direction(node, next) }
+}
+
+/// Unit vector from a node to the next; zero between nodes in one place.
+fn direction(node: &PathNode, next: &PathNode) -> Vec3 {
+    (next.place - node.place).try_normalize(f64::MIN_POSITIVE).unwrap_or_default()
 }

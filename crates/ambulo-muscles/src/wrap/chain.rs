@@ -7,8 +7,8 @@
 //!   p_j = T2_j(p_(j-1), q_j),   q_j = T1_(j+1)(p_j, q_(j+1)),
 //! where T1 and T2 are the tangent points of the closed form, with derivatives in closed form too.
 //!
-//! A cylinder that may be passed on either side is passed on the side that is shorter between its neighbours. Where that
-//! is not clear by far, all combinations of sides are tried, and the shortest path is taken.
+//! A cylinder that may be passed on either side is passed on the side that is shorter between its neighbours. Where
+//! that is not clear by far, all combinations of sides are tried, and the shortest path is taken.
 //!
 //! The search begins anew in every posture, so the path does not depend on earlier postures.
 //!
@@ -18,6 +18,7 @@
 use super::tangents::Derivatives;
 use super::{Arc, Contact, Passage, PathNode, PathSurface};
 use ambulo_body::numerics::DenseLu;
+use ambulo_body::numerics::elementary::atan2;
 use ambulo_body::spatial::{Mat3, Vec3};
 
 /// Sweeps of closed forms and of Newton's method before the best path so far is taken.
@@ -28,7 +29,9 @@ const MOST_STEPS: usize = 8;
 const SETTLED_M: f64 = 1e-14;
 /// A move after which the search has ended, if a sweep moves tangent points no more than this [m].
 const ENDED_M: f64 = 1e-13;
-
+/// Length that a path may still lose after a sweep that moved no tangent point by more than 1 m [m]: an end of an arc
+/// changes the length by at most twice its move, and the moves shrink geometrically. Larger is safer and slower.
+const MOST_GAIN: f64 = 32.0;
 /// Turn around a cylinder above which the path on its other side is tried [rad]; half a turn is as far on both sides.
 const DOUBTFUL_RAD: f64 = 2.0;
 /// Cylinders whose sides are tried.
@@ -49,6 +52,8 @@ struct Link {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Chain {
     links: Vec<Link>,
+    /// The surfaces of the arcs before a sweep.
+    order: Vec<usize>,
     contacts: Vec<Contact>,
     /// The sense of turning around each cylinder, where it is prescribed.
     senses: Vec<Option<f64>>,
@@ -70,7 +75,7 @@ impl Chain {
     ) {
         self.senses.clear();
         self.senses.resize(surfaces.len(), None);
-        self.solve(ends, part, surfaces);
+        self.solve(ends, part, surfaces, (usize::MAX, f64::INFINITY));
         self.try_other_sides(ends, part, surfaces);
         contacts.iter_mut().zip(&self.contacts).for_each(|(kept, found)| super::note(kept, *found));
         for link in &self.links {
@@ -81,14 +86,17 @@ impl Chain {
         }
     }
 
-    /// The shortest path with the prescribed senses.
-    fn solve(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
+    /// The shortest path with the prescribed senses; the search ends early where it cannot become better than a path
+    /// with the merit `least`.
+    fn solve(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface], least: (usize, f64)) {
         self.links.clear();
         for _ in 0..MOST_SWEEPS {
             self.contacts.clear();
             self.contacts.resize(surfaces.len(), Contact::Free);
             let (changed, moved) = self.sweep(ends, part, surfaces);
-            if !changed && moved <= ENDED_M {
+            let (passed_over, length) = self.merit(ends);
+            let is_worse = passed_over >= least.0 && length - least.1 > MOST_GAIN * moved;
+            if !changed && (moved <= ENDED_M || is_worse) {
                 return;
             }
             if !changed {
@@ -97,27 +105,30 @@ impl Chain {
         }
     }
 
-    /// Tries all combinations of sides of the cylinders whose side is in doubt, and keeps the shortest path.
+    /// Tries all combinations of sides of the touched cylinders whose side is in doubt, and keeps the shortest path. A
+    /// cylinder that is not touched does not lengthen the path on its present side.
     fn try_other_sides(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) {
         self.doubtful.clear();
-        for (index, surface) in surfaces.iter().enumerate() {
-            if surface.covers(part) && surface.has_two_sides() && self.largest_turn(ends, index, surface) > DOUBTFUL_RAD
-            {
+        for at in 0..self.links.len() {
+            let index = self.links[at].surface;
+            let [from, to] = self.around(ends, at).map(|place| surfaces[index].inside(place));
+            let turn = atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+            if surfaces[index].has_two_sides() && turn.abs() > DOUBTFUL_RAD {
                 self.doubtful.push(index);
             }
+        }
+        if self.doubtful.is_empty() {
+            return;
         }
         self.doubtful.truncate(MOST_DOUBTFUL);
         let mut least = self.merit(ends);
         self.best_links.clone_from(&self.links);
         self.best_contacts.clone_from(&self.contacts);
         for sides in 0..1_usize << self.doubtful.len() {
-            if self.doubtful.is_empty() {
-                return;
-            }
             for (bit, index) in self.doubtful.iter().enumerate() {
                 self.senses[*index] = Some(if sides >> bit & 1 == 0 { 1.0 } else { -1.0 });
             }
-            self.solve(ends, part, surfaces);
+            self.solve(ends, part, surfaces, least);
             let merit = self.merit(ends);
             if merit.0 < least.0 || merit.0 == least.0 && merit.1 < least.1 - SHORTER_M {
                 least = merit;
@@ -127,18 +138,6 @@ impl Chain {
         }
         std::mem::swap(&mut self.links, &mut self.best_links);
         std::mem::swap(&mut self.contacts, &mut self.best_contacts);
-    }
-
-    /// The largest angle around a cylinder by which the path turns between two other nodes [rad].
-    fn largest_turn(&self, ends: [Vec3; 2], index: usize, surface: &PathSurface) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut from = ends[0];
-        let tos = self.links.iter().filter(|link| link.surface != index).map(|link| [link.from, link.to]);
-        for [to, next] in tos.chain([[ends[1]; 2]]) {
-            largest = largest.max(surface.inside(from).xy().angle(&surface.inside(to).xy()));
-            from = next;
-        }
-        largest
     }
 
     /// Number of surfaces that are passed over, and length between both ends [m]: less is better.
@@ -155,25 +154,23 @@ impl Chain {
 
     /// Puts every surface's arc anew; returns whether surfaces or their order changed, and the largest move [m].
     fn sweep(&mut self, ends: [Vec3; 2], part: usize, surfaces: &[PathSurface]) -> (bool, f64) {
-        let (mut changed, mut moved) = (false, 0.0_f64);
+        let mut moved = 0.0_f64;
+        self.order.clear();
+        self.order.extend(self.links.iter().map(|link| link.surface));
         for (index, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.covers(part)) {
-            let old = self.links.iter().position(|link| link.surface == index).map(|at| (at, self.links.remove(at)));
+            let old = self.links.iter().position(|link| link.surface == index).map(|at| self.links.remove(at));
             let mut contact = Contact::Free;
             let new = self.best(ends, index, surface, &mut contact);
             self.contacts[index] = contact;
-            match (old, new) {
-                (Some((old_at, old)), Some((at, new))) => {
-                    changed |= old_at != at;
-                    moved = moved.max((old.from - new.from).norm()).max((old.to - new.to).norm());
-                }
-                (None, None) => {}
-                _ => changed = true,
+            if let (Some(old), Some((_, new))) = (old, new) {
+                moved = moved.max((old.from - new.from).norm()).max((old.to - new.to).norm());
             }
             if let Some((at, link)) = new {
                 self.links.insert(at, link);
             }
         }
-        (changed, moved)
+        // Within a sweep two arcs may change places and change them back.
+        (!self.order.iter().copied().eq(self.links.iter().map(|link| link.surface)), moved)
     }
 
     /// The arc on a surface and its place among the other arcs: in the straight part that runs deepest through the
@@ -207,6 +204,11 @@ impl Chain {
     fn neighbours(&self, ends: [Vec3; 2], at: usize) -> [Vec3; 2] {
         let from = at.checked_sub(1).and_then(|before| self.links.get(before)).map_or(ends[0], |link| link.to);
         [from, self.links.get(at).map_or(ends[1], |link| link.from)]
+    }
+
+    /// The places between which the arc at this position lies.
+    fn around(&self, ends: [Vec3; 2], at: usize) -> [Vec3; 2] {
+        [self.neighbours(ends, at)[0], self.neighbours(ends, at + 1)[1]]
     }
 
     /// Newton's method on the tangent points while surfaces and order stay.
@@ -243,7 +245,7 @@ impl Chain {
         (0..size).for_each(|k| self.matrix.row_mut(k)[k] = 1.0);
         for at in 0..self.links.len() {
             let link = self.links[at];
-            let neighbours = [self.neighbours(ends, at)[0], self.neighbours(ends, at + 1)[1]];
+            let neighbours = self.around(ends, at);
             let Some((arc, slopes)) = surfaces[link.surface].tangents(neighbours, self.senses[link.surface]) else {
                 return false;
             };

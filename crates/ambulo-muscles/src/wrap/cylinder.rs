@@ -22,6 +22,10 @@ use std::f64::consts::TAU;
 
 /// The shortest path from `a` to `b` in the axes of a cylinder of this radius and length.
 pub(super) fn shortest(ends: [Vec3; 2], size: [f64; 2], quadrant: Option<Quadrant>) -> Passage {
+    // Most lines pass the cylinder, and need no angles.
+    if quadrant.is_none() && depth(ends, size[0]).is_some_and(|depth| depth < 0.0) {
+        return Passage::Straight(Contact::Free);
+    }
     by_turn(ends, size, turn(ends[0], ends[1], quadrant))
 }
 
@@ -31,18 +35,16 @@ pub(super) fn shortest_in_sense(ends: [Vec3; 2], size: [f64; 2], sense: f64) -> 
     by_turn(ends, size, if turn * sense < 0.0 { turn + sense * TAU } else { turn })
 }
 
-/// Angle of the arc that the straight line would need, negative if it passes the cylinder [rad]; `None` with an end inside.
+/// How far the straight line runs into the cylinder, negative if it passes it [m]; `None` with an end inside.
 pub(super) fn depth([a, b]: [Vec3; 2], radius: f64) -> Option<f64> {
-    let covered = End::of(a, radius)?.angle + End::of(b, radius)?.angle;
-    Some(turn(a, b, None).abs() - covered)
+    super::depth([a, b].map(|place| Vec3::new(place.x, place.y, 0.0)), radius)
 }
 
 fn by_turn([a, b]: [Vec3; 2], [radius, length]: [f64; 2], turn: f64) -> Passage {
     let [from, to] = [a, b].map(|place| End::of(place, radius));
     let (Some(from), Some(to)) = (from, to) else { return Passage::Straight(Contact::EndInside) };
     let angle = turn.abs() - from.angle - to.angle;
-    // A turn that is not a number (no point is at the axis, but a radius may be zero) is no arc either.
-    if !(angle > 0.0) {
+    if angle <= 0.0 {
         return Passage::Straight(Contact::Free);
     }
     let sense = if turn > 0.0 { 1.0 } else { -1.0 };
@@ -90,7 +92,7 @@ impl End {
     /// `None` inside the cylinder.
     fn of(place: Vec3, radius: f64) -> Option<End> {
         let distance = hypot(place.x, place.y);
-        if !(distance >= radius) || distance <= 0.0 {
+        if distance < radius || distance <= 0.0 {
             return None;
         }
         let tangent = ((distance - radius) * (distance + radius)).sqrt();

@@ -21,7 +21,7 @@
 //! both tangent points lie beyond the same end of a cylinder.
 //!
 //! Not handled: ellipsoids and tori.
-//! Pinned by: tests/wrap_closed_forms.rs, tests/wrap_opensim.rs.
+//! Pinned by: tests/wrap_closed_forms.rs, tests/wrap_chain.rs, tests/wrap_opensim.rs, tests/wrap_models.rs.
 
 mod chain;
 mod cylinder;
@@ -206,13 +206,12 @@ impl PathSurface {
         }
     }
 
-    /// Angle of the arc that a straight part would need, negative if it passes the surface [rad]; `None` if an end lies
-    /// inside.
+    /// How far a straight part runs into the surface, negative if it passes it [m]; `None` if an end lies inside.
     fn depth(&self, ends: [Vec3; 2]) -> Option<f64> {
         let ends = ends.map(|place| self.inside(place));
         match self.shape {
             WrapShape::Cylinder { radius, .. } => cylinder::depth(ends, radius),
-            WrapShape::Sphere { radius } => sphere::depth(ends, radius),
+            WrapShape::Sphere { radius } => depth(ends, radius),
         }
     }
 
@@ -234,6 +233,16 @@ impl PathSurface {
         };
         [node(arc.from, Some(arc.length)), node(arc.to, None)]
     }
+}
+
+/// How far the straight line runs into a sphere around the origin, negative if it passes it [m]; `None` with an end
+/// inside.
+fn depth([a, b]: [Vec3; 2], radius: f64) -> Option<f64> {
+    let line = b - a;
+    let square = line.norm_squared();
+    let share = if square > 0.0 { (-a.dot(&line) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let is_outside = a.norm_squared().min(b.norm_squared()) >= radius * radius;
+    is_outside.then(|| radius - (a + line * share).norm())
 }
 
 /// Length of a path [m].

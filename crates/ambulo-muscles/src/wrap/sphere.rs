@@ -25,7 +25,7 @@ pub(super) fn shortest([a, b]: [Vec3; 2], radius: f64, quadrant: Option<Quadrant
     let normal = u.cross(&v);
     let between = atan2(normal.norm(), u.dot(&v));
     let near = between - covered;
-    if !(near > 0.0) {
+    if near <= 0.0 {
         return Passage::Straight(Contact::Free);
     }
     let Some(normal) = plane(u, normal, quadrant) else { return Passage::Straight(Contact::Free) };
@@ -43,16 +43,6 @@ pub(super) fn shortest([a, b]: [Vec3; 2], radius: f64, quadrant: Option<Quadrant
     };
     let [from, to] = touch(sense);
     Passage::Over(Arc { from, to, length: radius * angle, angle, sense })
-}
-
-/// Angle of the arc that the straight line would need, negative if it passes the sphere [rad]; `None` with an end inside.
-pub(super) fn depth([a, b]: [Vec3; 2], radius: f64) -> Option<f64> {
-    let covered = |place: Vec3| {
-        let distance = place.norm();
-        let tangent = ((distance - radius) * (distance + radius)).sqrt();
-        (distance >= radius && distance > 0.0).then(|| atan2(tangent, radius))
-    };
-    Some(atan2(a.cross(&b).norm(), a.dot(&b)) - covered(a)? - covered(b)?)
 }
 
 /// Unit normal of the plane of the path; if both points and the centre lie on a line, one of its many planes.

@@ -2,8 +2,9 @@
 
 use crate::people::{self, Person};
 use crate::shared_data;
-use ambulo_body::dynamics::{Workspace, inverse};
-use ambulo_body::model::{BySide, Side};
+use ambulo_body::dynamics::{LoadSeries, Workspace, inverse};
+use ambulo_body::kinematics::Trajectory;
+use ambulo_body::model::{BySide, Model, Side};
 use ambulo_body::spatial::STANDARD_GRAVITY;
 use ambulo_formats::table::Table;
 use ambulo_muscles::built_in::muscle_set;
@@ -39,20 +40,25 @@ const RAJAGOPAL: Walk = Walk {
     knee: "walker_knee",
 };
 
-/// Peaks of hip, knee and ankle of each side [body weights], and the worst reserve of a leg [N.m].
-struct Peaks {
-    joints: BySide<[f64; 3]>,
-    reserve: f64,
+impl Walk {
+    fn peaks(&self, person: &Person, set: &MuscleSet) -> Peaks {
+        let trajectory = person.trajectory(self.window);
+        let ground = person.ground(self.plates, &trajectory);
+        peaks(&person.model, set, &trajectory, &ground)
+    }
 }
 
-fn peaks(person: &Person, set: &MuscleSet, walk: &Walk) -> Peaks {
-    let model = &person.model;
-    let trajectory = person.trajectory(walk.window);
-    let ground = person.ground(walk.plates, &trajectory);
-    let net = inverse(&mut Workspace::new(model), &trajectory, &ground);
-    let trial = solve_trial(model, set, &MuscleSettings::default(), &trajectory, &net.generalized).unwrap();
-    let reader = trial.reader(model, &trajectory, &ground);
-    let loads = contact_loads(model, &trajectory, &reader, BySide::from_fn(|_| condyle_distance(None)));
+/// Peaks of hip, knee and ankle of each side [body weights], and the worst reserve of a leg [N.m].
+pub(super) struct Peaks {
+    pub(super) joints: BySide<[f64; 3]>,
+    pub(super) reserve: f64,
+}
+
+pub(super) fn peaks(model: &Model, set: &MuscleSet, trajectory: &Trajectory, ground: &[LoadSeries]) -> Peaks {
+    let net = inverse(&mut Workspace::new(model), trajectory, ground);
+    let trial = solve_trial(model, set, &MuscleSettings::default(), trajectory, &net.generalized).unwrap();
+    let reader = trial.reader(model, trajectory, ground);
+    let loads = contact_loads(model, trajectory, &reader, BySide::from_fn(|_| condyle_distance(None)));
     let weight = model.mass() * STANDARD_GRAVITY;
     let joints = loads.map(|leg| {
         leg.unwrap()
@@ -104,11 +110,11 @@ fn show(found: &Peaks, published: &BySide<[f64; 3]>, walk: &Walk) -> f64 {
 fn peaks_of_knee_contact_are_within_15_percent_of_gait2392() {
     let (Some(person), Some(published)) = (people::subject01(), opensim(&GAIT2392)) else { return };
     let set = muscle_set(&person.model).unwrap();
-    assert!(show(&peaks(&person, &set, &GAIT2392), &published, &GAIT2392) < 0.15);
+    assert!(show(&GAIT2392.peaks(&person, &set), &published, &GAIT2392) < 0.15);
     // Without gastrocnemii and hamstrings the peaks are others.
     let mut fewer = set;
     fewer.muscles.retain(|muscle| !["_gas_", "semi", "bifem"].iter().any(|part| muscle.name.contains(part)));
-    assert!(show(&peaks(&person, &fewer, &GAIT2392), &published, &GAIT2392) > 0.15);
+    assert!(show(&GAIT2392.peaks(&person, &fewer), &published, &GAIT2392) > 0.15);
 }
 
 /// The second person has another published model, whose muscles are stronger and whose knee has a patella.
@@ -116,5 +122,5 @@ fn peaks_of_knee_contact_are_within_15_percent_of_gait2392() {
 fn peaks_of_knee_contact_of_a_second_person_are_near_those_of_rajagopals_model() {
     let (Some(person), Some(published)) = (people::rajagopal_walker(), opensim(&RAJAGOPAL)) else { return };
     let set = muscle_set(&person.model).unwrap();
-    assert!(show(&peaks(&person, &set, &RAJAGOPAL), &published, &RAJAGOPAL) < 0.25);
+    assert!(show(&RAJAGOPAL.peaks(&person, &set), &published, &RAJAGOPAL) < 0.25);
 }

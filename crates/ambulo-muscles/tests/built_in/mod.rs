@@ -2,5 +2,6 @@
 
 mod arms;
 mod contact;
+mod laboratories;
 mod persons;
 mod write_table;

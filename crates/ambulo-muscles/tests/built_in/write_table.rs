@@ -1,7 +1,7 @@
 //! The table of the muscles of a leg, from Gait2392.
 //!
-//! Points of Gait2392 are moved from the frames of its bones to segment frames that joint centres define. Its knee rolls
-//! and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given from
+//! Points of Gait2392 are moved from the frames of its bones to segment frames that joint centres define. Its knee
+//! rolls and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given from
 //! the hinge that fits the published knee best over its whole flexion: the points a of the thigh and b of the shank with
 //! the least Σ |t(θ) + R(θ) b - a|², one degree apart.
 
@@ -21,21 +21,23 @@ use std::path::Path;
 const HEADER: &str = "\
 # The 43 muscles of a right leg: paths in segment frames, and parameters.
 #
-# Source: Gait2392 (`gait2392.osim` of CEINMS-RT/LowerLimbModel, commit 4056e1c6de2276f174c1b1ef3f1de5ea017a0f07), a model
-# by D. G. Thelen, A. Seth, F. C. Anderson and S. L. Delp. Lower extremity: Delp, Loan, Hoy, Zajac, Topp, Rosen 1990. Knee:
-# Yamaguchi, Zajac 1989.
-# Licence of the model: Creative Commons Attribution 3.0 (CC BY 3.0, http://creativecommons.org/licenses/by/3.0/), stated
-# in its <credits>; licence of the repository: Apache-2.0. Carried over: points of the paths and parameters. Changed: the
-# points are in other frames (below); where the range of a conditional point reached the end of the coordinate's own
-# range, it has no end here.
+# Source: Gait2392 (`gait2392.osim` of CEINMS-RT/LowerLimbModel, commit 4056e1c6de2276f174c1b1ef3f1de5ea017a0f07), a
+# model by D. G. Thelen, A. Seth, F. C. Anderson and S. L. Delp. Lower extremity: Delp, Loan, Hoy, Zajac, Topp, Rosen
+# 1990. Knee: Yamaguchi, Zajac 1989.
+# Licence of the model: Creative Commons Attribution 3.0 (CC BY 3.0, http://creativecommons.org/licenses/by/3.0/),
+# stated in its <credits>; licence of the repository: Apache-2.0. Carried over: points of the paths and parameters.
+# Changed: the points are in other frames (below); where the range of a conditional point reached the end of the
+# coordinate's own range, it has no end here.
 #
-# Markers of the iliac spines for `spines_rad` and `spines_m`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml` (opensim-models).
+# Markers of the iliac spines for `spines_rad` and `spines_m`: R.ASIS and V.Sacral of `gait2392_Scale_MarkerSet.xml`
+# (opensim-models).
 #
 # Places in m, angles in rad. Axes: x forward, y up, z to the right; origins: own hip centre (pelvis, thigh), knee
-# (shank), ankle (foot), ball of the foot (toes). y of the thigh points from the knee to the hip, y of the shank from the
-# ankle to the knee. Angles: flexion of the hip and extension of the knee from the straight leg.
+# (shank), ankle (foot), ball of the foot (toes). y of the thigh points from the knee to the hip, y of the shank from
+# the ankle to the knee. Angles: flexion of the hip and extension of the knee from the straight leg.
 #
-# AMBULO_WRITE=1 cargo test -p ambulo-muscles write_table writes this file from shared/data/muscles/B-ceinms-lowerlimb.
+# AMBULO_WRITE=1 cargo test -p ambulo-muscles the_table_is_gait2392 writes this file from
+# shared/data/muscles/B-ceinms-lowerlimb.
 ";
 
 /// Markers of the iliac spines of Gait2392's marker set in its pelvis [m]: right anterior one, and sacrum.
@@ -45,7 +47,7 @@ const FLEXION_DEG: i32 = 120;
 /// An end of a range that is at least that of the coordinate, less this, is none [rad].
 const END: f64 = 1e-6;
 
-/// `muscle` files have no end of a range: half a turn.
+/// The end of a range that has none [rad].
 const NO_END: f64 = std::f64::consts::PI;
 
 /// Frames of Gait2392's right leg and the model.
@@ -140,7 +142,7 @@ impl Source {
     }
 
     fn point(&self, point: &OsimPathPoint) -> String {
-        assert!(point.frame.translation_m == [0.0; 3], "a frame of its own");
+        assert!(Vec3::from(point.frame.translation_m).norm() < f64::MIN_POSITIVE, "a frame of its own");
         match &point.place {
             OsimPointPlace::Fixed(place) => {
                 let (segment, place) = self.place(&point.frame.body, Vec3::from(*place));
@@ -234,8 +236,9 @@ fn table(source: &Source) -> String {
     line(format!("max_pennation_rad = {:?}", first.maximum_pennation_angle));
     for muscle in legs {
         let found = known(muscle);
-        assert!(found.curves == first.curves && found.maximum_pennation_angle == first.maximum_pennation_angle);
-        assert!(found.max_contraction_velocity == first.max_contraction_velocity && found.path.wraps.is_empty());
+        assert!(found.curves == first.curves && found.path.wraps.is_empty());
+        let shared = |known: &OsimMuscleParameters| [known.maximum_pennation_angle, known.max_contraction_velocity];
+        assert_eq!(shared(found).map(f64::to_bits), shared(first).map(f64::to_bits));
         line(format!("\n[[muscle]]\nname = \"{}\"", muscle.name.trim_end_matches("_r")));
         line(format!("force_n = {:?}\nfiber_m = {:?}", found.max_isometric_force, found.optimal_fiber_length));
         line(format!("tendon_m = {:?}", found.tendon_slack_length));

@@ -42,6 +42,24 @@ class BodyMotions(TypedDict):
     angular_acceleration: NDArray[np.float64]
 
 @type_check_only
+class MusclePaths(TypedDict):
+    """Paths of the muscles; n frames, m muscles."""
+
+    muscles: list[str]
+    length: NDArray[np.float64]
+    speed: NDArray[np.float64]
+    arm: NDArray[np.float64]
+
+@type_check_only
+class MuscleForces(TypedDict):
+    """Muscle forces; n frames, m muscles."""
+
+    muscles: list[str]
+    activation: NDArray[np.float64]
+    force: NDArray[np.float64]
+    reserve: NDArray[np.float64]
+
+@type_check_only
 class MarkerFit(TypedDict):
     """Coordinates that follow markers."""
 
@@ -92,6 +110,17 @@ class Model:
     def forward_kinematics(
         self, q: ArrayLike, qd: ArrayLike | None = None, qdd: ArrayLike | None = None
     ) -> BodyMotions: ...
+    @property
+    def muscles(self) -> list[str]: ...
+    def muscle_paths(self, q: ArrayLike, qd: ArrayLike | None = None, wraps: str = "exact") -> MusclePaths: ...
+    def static_optimization(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        moments: ArrayLike,
+        exponent: float | None = None,
+        wraps: str = "exact",
+    ) -> MuscleForces: ...
     def fit_markers(self, names: Sequence[str], positions: ArrayLike, rate: float) -> MarkerFit: ...
     def smooth(
         self,

@@ -94,6 +94,21 @@ class Result:
         return self._table("reactions.sto")
 
     @property
+    def muscles(self) -> Table | None:
+        """Activation (0 to 1), force [N] and length [m] of every muscle, and what motors add at each coordinate [N.m, N], as ``muscles.sto``; None unless muscles were asked for."""
+        return self._table("muscles.sto")
+
+    @property
+    def contact(self) -> Table | None:
+        """Loads of hip, knee and ankle with the tensions of the muscles [N, N.m], as ``reactions_contact.sto``; None unless muscles were asked for."""
+        return self._table("reactions_contact.sto")
+
+    @property
+    def emg(self) -> Table | None:
+        """Envelopes of the electromyograms, as ``emg.sto``; None without a signal of a known muscle."""
+        return self._table("emg.sto")
+
+    @property
     def grf(self) -> Table | None:
         """Ground forces on both feet [N], centres of pressure [m] and free moments [N.m] in world axes, as ``grf.mot``."""
         return self._table("grf.mot")
@@ -164,6 +179,11 @@ class Result:
     def knee_adduction(self) -> list[dict[str, Any]]:
         """External knee adduction moment in stance: ``first_peak``, ``second_peak`` [N.m/kg] and ``impulse`` [N.m.s/kg] of both legs, each with the ``source`` of its forces; empty if unknown."""
         return list(self.summary.get("knee_adduction_moment", []))
+
+    @property
+    def contact_loads(self) -> list[dict[str, Any]]:
+        """Peaks [BW] and impulses [BW.s] of the loads of hip, knee and ankle in stance, and of both condyles of the knees; empty unless muscles were asked for."""
+        return list((self.summary.get("muscles") or {}).get("contact_loads", []))
 
     @property
     def findings(self) -> list[dict[str, Any]]:

@@ -11,7 +11,7 @@ use crate::kinematics::calibration::{PersonMeasurements, Trial, calibrate};
 use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, fit_markers};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::marker_set::{Landmark, MarkerSet, NamedMarker};
-use crate::model::{BodyId, CoordinateId, Marker, Model, Movement, Side};
+use crate::model::{BodyId, CoordinateId, Drive, Marker, Model, Movement, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// Least number of frames in which a marker of the standing trial must be seen.
 pub(super) const LEAST_FRAMES: usize = 3;
 /// Fewest markers that show the pose of a foot.
-pub(super) const OF_A_POSE: usize = 3;
+const OF_A_POSE: usize = 3;
 /// Steps of the search for the level foot, and the step of its derivative [rad].
 const LEVEL_STEPS: usize = 4;
 const SMALL: f64 = 1e-4;
@@ -152,9 +152,15 @@ fn is_loose(model: &Model, standing: &MarkerRecording, lacking: &[&str], side: S
     lacking.iter().any(is_of_foot) && on_foot.filter(is_seen).count() < OF_A_POSE
 }
 
+/// The poses of all bodies; coupled coordinates follow theirs.
 pub(super) fn poses(model: &Model, q: &[f64]) -> Vec<Pose> {
-    let rest = vec![0.0; q.len()];
-    body_motion(model, Posture { q, qd: &rest, qdd: &rest }).into_iter().map(|body| body.pose).collect()
+    let (mut q, rest) = (q.to_vec(), vec![0.0; q.len()]);
+    for (i, coordinate) in model.coordinates().iter().enumerate() {
+        if let Drive::Coupled(leader, function) = &coordinate.drive {
+            q[i] = function.at(q[leader.index()])[0];
+        }
+    }
+    body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest }).into_iter().map(|body| body.pose).collect()
 }
 
 /// Turns the ankle until the foot points neither up nor down.

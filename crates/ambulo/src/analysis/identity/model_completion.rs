@@ -5,11 +5,12 @@
 //! markers that are there, follows the motion without the lacking markers; their places on the body are the medians over
 //! the frames. It is then stood into the standing trial with them, as the built-in body ([`super::completion`]).
 //!
-//! A lacking marker without which its segment has fewer than three markers keeps its usual place on the scaled model:
-//! the motion alone does not show it. A foot is then level in the standing trial.
+//! A lacking marker whose segment has fewer than two others keeps its usual place on the scaled model, which is reported:
+//! the motion does not show it, because a joint centre and one marker are no pose. A foot is then level in the standing
+//! trial.
 
-use super::completion::{LEAST_FRAMES, OF_A_POSE, placed, poses, report};
-use crate::findings::Findings;
+use super::completion::{LEAST_FRAMES, placed, poses, report};
+use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::kinematics::scaling::fit_size;
 use crate::model::{CoordinateId, Marker, Model};
@@ -20,6 +21,8 @@ use std::collections::BTreeMap;
 
 /// Frames of the motion that are fitted, spread over it.
 const FRAMES: usize = 40;
+/// Markers that show the pose of a segment together with its joint centre.
+const OTHERS: usize = 2;
 
 /// The standing trial with the places of the markers that it lacks, in world axes; `None` if it lacks none.
 pub(in crate::analysis) fn completed_for_model(
@@ -43,20 +46,36 @@ pub(in crate::analysis) fn completed_for_model(
         return None;
     }
     let sized = fit_size(model, standing, mass, &mut Findings::default()).ok()?.model;
-    let shown = shown_by(&sized, moving, &lacking)?;
+    let (found, kept): (Vec<&str>, Vec<&str>) =
+        lacking.iter().copied().partition(|name| is_shown(&sized, moving, &lacking, name));
+    let shown = shown_by(&sized, moving, &found)?;
     let completed = placed(&shown, BTreeMap::new(), standing, &lacking)?;
-    report(&lacking, findings);
+    if !found.is_empty() {
+        report(&found, findings);
+    }
+    if !kept.is_empty() {
+        let names: Vec<String> = kept.iter().map(|name| format!("`{name}`")).collect();
+        let message = format!(
+            "the standing trial does not show {}, and its segment has too few other markers in the motion: kept at its \
+             usual place on the scaled model. hint: record the standing trial with all markers",
+            names.join(", ")
+        );
+        findings.report(Code::CalibrationPlaced, message);
+    }
     Some(completed)
 }
 
-/// The model with the lacking markers where the motion shows them.
+/// Whether the segment of a lacking marker has others that show its pose in the motion.
+fn is_shown(model: &Model, moving: &MarkerRecording, lacking: &[&str], name: &str) -> bool {
+    let body = model.markers().iter().find(|marker| marker.name == name).and_then(|marker| marker.body);
+    let own = model.markers().iter().filter(|other| other.body == body && !lacking.contains(&other.name.as_str()));
+    own.filter(|other| moving.marker(&other.name).is_some()).count() >= OTHERS
+}
+
+/// The model with these markers where the motion shows them, by the other markers.
 fn shown_by(model: &Model, moving: &MarkerRecording, lacking: &[&str]) -> Option<Model> {
-    let is_lacking = |marker: &Marker| lacking.contains(&marker.name.as_str());
-    let has_others = |marker: &Marker| {
-        let own = model.markers().iter().filter(|other| other.body == marker.body && !is_lacking(other));
-        own.filter(|other| moving.marker(&other.name).is_some()).count() >= OF_A_POSE
-    };
-    let found: Vec<&Marker> = model.markers().iter().filter(|m| is_lacking(m) && has_others(m)).collect();
+    let is_lacking = |marker: &&Marker| lacking.contains(&marker.name.as_str());
+    let found: Vec<&Marker> = model.markers().iter().filter(is_lacking).collect();
     let sample = moving.sample(FRAMES);
     let mut others = sample.clone();
     others.markers.retain(|path| !found.iter().any(|marker| marker.name == path.name));
