@@ -1,4 +1,4 @@
-//! Paths over one surface against OpenSim 4.6 (`unit_wraps.csv`: two free points, a cylinder or a sphere at the origin).
+//! Paths over one surface against OpenSim 4.6: `unit_wraps.csv`, two free points, a cylinder or a sphere at the origin.
 
 use crate::shared_data::data;
 use ambulo_body::spatial::{Pose, Vec3};

@@ -80,7 +80,7 @@ fn turn(a: Vec3, b: Vec3, quadrant: Option<Quadrant>) -> f64 {
 
 /// One end of the path, seen along the axis.
 struct End {
-    /// Radius over distance from the axis, and tangent over distance: cosine and sine of the angle to the tangent point.
+    /// Cosine and sine of the angle to the tangent point: radius, and tangent, over the distance from the axis.
     cos_sin: [f64; 2],
     angle: f64,
     tangent: f64,

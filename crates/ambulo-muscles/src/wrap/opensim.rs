@@ -5,15 +5,15 @@
 //! repeated until the length changes by less than 0.5 mm, at most 8 times. So the path is not the shortest, and
 //! its moment arms are not the derivatives of its length.
 //!
-//! A fault adds to that. OpenSim keeps the place in the world at which a tangent point was first asked for, and does not
-//! renew it when a later sweep moves the point. Straight parts, their lengths and their directions therefore belong to
-//! the first sweep; the arcs and the places at which the forces act belong to the last. In walking with Rajagopal's
+//! A fault adds to that. OpenSim keeps the place in the world at which a tangent point was first asked for, and does
+//! not renew it when a later sweep moves the point. Straight parts, their lengths and their directions therefore belong
+//! to the first sweep; the arcs and the places at which the forces act belong to the last. In walking with Rajagopal's
 //! model this makes `gaslat` up to 6.9 mm shorter than the shortest path, and its forces are not in balance.
 //!
 //! Source: opensim-org/opensim-core, `GeometryPath::applyWrapObjects`, `calcPathLengthChange` and
 //! `addInEquivalentForces` (OpenSim/Simulation/Model/GeometryPath.cpp, read at 025239c4 and 42039bea),
-//! `Point::getLocationInGround` (Point.cpp, 32120f2c), `PathWrapPoint::setLocation` (PathWrapPoint.cpp, 123e4a09); rules
-//! restated, and compared with results of OpenSim 4.6.
+//! `Point::getLocationInGround` (Point.cpp, 32120f2c), `PathWrapPoint::setLocation` (PathWrapPoint.cpp, 123e4a09);
+//! rules restated, and compared with results of OpenSim 4.6.
 //! Not handled: a wrap of whose range all points are switched off; OpenSim then leaves out all later wraps too.
 //! Pinned by: tests/wrap_models.rs.
 
