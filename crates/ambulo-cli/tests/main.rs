@@ -24,6 +24,7 @@ mod keep;
 mod marker_input;
 mod measured_pages;
 mod motion_sets;
+mod muscles;
 mod one_road;
 mod opensim_setup;
 mod option_sweep;

@@ -82,7 +82,7 @@ codes! {
         "Check the strength of the muscles and the moments; forces of the muscles there are too small by what the \
          motors add.";
     MusclesAvailable "muscles.available" Note
-        "The model has muscles, and their forces were not asked for."
+        "The model has muscles; their forces are computed on request."
         "Ask for muscle forces to get activations, tensions and the loads of the joints.";
     EmgUnused "emg.unused" Warning
         "The electromyograms of the recording cannot be used."

@@ -148,6 +148,7 @@ pub fn from_osim(document: &OsimModel, findings: &mut Findings) -> Result<Model,
         findings.report(Code::ModelDocument, remark.to_string());
     }
     note_ignored(document, findings);
+    note_muscles(document, findings);
     let (document, added) = scapulothoracic::divided(document);
     let document = document.as_ref();
     check_joints(document)?;
@@ -200,6 +201,15 @@ fn import_bushing(bushing: &OsimBushing, bodies: &BTreeMap<&str, BodyId>) -> Bus
         stiffness: resistance(bushing.rotational_stiffness, bushing.translational_stiffness),
         damping: resistance(bushing.rotational_damping, bushing.translational_damping),
         groups: bushing.groups.clone(),
+    }
+}
+
+/// Notes that muscle forces can be had.
+fn note_muscles(document: &OsimModel, findings: &mut Findings) {
+    let count = document.muscles.as_ref().map_or(0, |found| found.muscles.len());
+    if count > 0 {
+        let message = format!("the model has {}; their forces are computed on request", counted(count, "muscle"));
+        findings.report(Code::MusclesAvailable, message);
     }
 }
 

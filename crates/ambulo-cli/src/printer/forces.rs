@@ -1,8 +1,8 @@
 //! Prints the outcome of `forces`, `walk` and `demo`.
 
 use super::{
-    comparison, consistency, counted_reasons, print_findings, print_json, print_line, print_verdict, print_warnings,
-    quoted, reasons_shown, subject,
+    comparison, consistency, counted_reasons, muscles, print_findings, print_json, print_line, print_verdict,
+    print_warnings, quoted, reasons_shown, subject,
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
@@ -111,6 +111,9 @@ fn outline(summary: &Summary) -> Result<()> {
     }
     if let Some(tracking) = &summary.tracking {
         print_tracking(tracking)?;
+    }
+    if let Some(found) = &summary.muscles {
+        muscles::print_muscles(found)?;
     }
     for (i, peak) in largest_peaks(summary).enumerate() {
         let head = if i == 0 { "peaks" } else { "" };

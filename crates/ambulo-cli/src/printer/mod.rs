@@ -5,6 +5,7 @@ mod calibrate;
 mod comparison;
 mod consistency;
 mod forces;
+mod muscles;
 mod report;
 mod reproduce;
 mod session;

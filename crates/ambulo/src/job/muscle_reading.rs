@@ -5,7 +5,7 @@ use super::files::{ending, read as read_file, read_table};
 use super::model_file::read_document;
 use super::muscles::MuscleStatements;
 use super::{Job, Reading};
-use crate::findings::Findings;
+use crate::findings::{Code, Findings};
 use crate::model::from_osim;
 use crate::muscles::emg::{EmgRecording, emg_from_c3d, emg_from_table};
 use crate::muscles::set::MuscleSet;
@@ -47,6 +47,7 @@ fn muscles(job: &Job, reading: &mut Reading<'_>) -> Result<MuscleSource, JobErro
         (None, Some(own)) => (own, job.shown()),
         (None, None) => return Ok(MuscleSource::BuiltIn),
     };
+    reading.findings.withdraw(Code::MusclesAvailable, |_| true);
     // Reading the model has reported its own findings.
     let model = from_osim(&document, &mut Findings::default()).at(place.clone())?;
     let set = MuscleSet::of_document(&document, &model, reading.findings).at(place)?;

@@ -70,7 +70,7 @@ pub struct MuscleOutcome {
     pub emg: Option<EmgTrial>,
     /// Envelopes beside activations.
     pub agreement: Vec<EmgComparison>,
-    /// Coordinates inside the body that muscles cross.
+    /// Coordinates inside the body that muscles cross and that no motor of the model drives.
     crossed: BTreeSet<CoordinateId>,
 }
 
@@ -106,8 +106,8 @@ impl MuscleRequest {
 
 impl MuscleOutcome {
     /// The coordinate whose muscles lack most of the moment that the motion needs, with the share that they lack.
-    /// Coordinates of joints to ground are left out, because what they need is the residual of inverse dynamics, and
-    /// coordinates that no muscle crosses.
+    /// Coordinates of joints to ground are left out, because what they need is the residual of inverse dynamics, coordinates
+    /// that no muscle crosses, and those that a motor of the model drives.
     #[must_use]
     pub fn weakest(&self, body: &Model) -> Option<(ReserveUse, f64)> {
         let least = LEAST_MOMENT * body.mass();
@@ -140,13 +140,14 @@ const LARGE_RESERVE: f64 = 0.1;
 /// Least moment that a share is taken of, in N.m for each kilogram of body mass: smaller ones are noise.
 const LEAST_MOMENT: f64 = 0.05;
 
-/// Coordinates inside the body that muscles cross.
+/// Coordinates inside the body that muscles cross and that no motor of the model drives.
 fn crossed(body: &Model, set: &MuscleSet) -> BTreeSet<CoordinateId> {
     let roots = body.bodies().iter().filter(|part| part.joint.parent.is_none());
     let of_roots: BTreeSet<CoordinateId> = roots.flat_map(|root| root.joint.coordinates()).collect();
+    let driven: BTreeSet<CoordinateId> = set.actuators.iter().map(|motor| motor.coordinate).collect();
     let paths = PathWorkspace::new(body, set, WrapRule::Exact);
     let all = (0..paths.muscles()).flat_map(|muscle| paths.coordinates(muscle).to_vec());
-    all.filter(|coordinate| !of_roots.contains(coordinate)).collect()
+    all.filter(|coordinate| !of_roots.contains(coordinate) && !driven.contains(coordinate)).collect()
 }
 
 /// The envelopes of a trial. Channels that hold no signal of a muscle, and recordings that cannot be used, are reported.

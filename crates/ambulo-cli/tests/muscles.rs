@@ -1,0 +1,101 @@
+//! `forces --muscles`: the muscles of the built-in body and of a model, files, summary, statements that are refused.
+
+use crate::workbench::Workbench;
+use ambulo_formats::table::Table;
+use serde_json::Value;
+use std::fs;
+
+const BARE: [&str; 8] =
+    ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+
+fn with_demo(name: &str) -> Workbench {
+    let bench = Workbench::empty(name);
+    bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
+    bench
+}
+
+fn forces(bench: &Workbench, options: &[&str], output: &str) -> Value {
+    let all = [&BARE[..], options, &["-o", output]].concat();
+    bench.run(&all).done();
+    serde_json::from_slice(&fs::read(bench.folder.join(output).join("summary.json")).unwrap()).unwrap()
+}
+
+fn table(bench: &Workbench, file: &str) -> Table {
+    Table::read_storage(&fs::read(bench.folder.join(file)).unwrap()).unwrap().0
+}
+
+/// Mean of the second peaks of a load over both legs [BW].
+fn second_peak(summary: &Value, load: &str) -> f64 {
+    let name = format!("{load}_second_peak");
+    let loads = summary["muscles"]["contact_loads"].as_array().unwrap();
+    let found = loads.iter().find(|quantity| quantity["quantity"] == name.as_str()).unwrap();
+    assert_eq!((found["unit"].as_str(), found["right"]["source"].as_str()), (Some("BW"), Some("measured")));
+    found["both"]["mean"].as_f64().unwrap()
+}
+
+#[test]
+fn a_bare_c3d_gives_muscle_forces_and_knee_loads_and_the_written_model_gives_them_again() {
+    let bench = with_demo("muscles_of_a_bare_c3d");
+    let keep = ["--muscles", "--keep", "muscles,reactions_contact,cycles,model"];
+    let summary = forces(&bench, &keep, "own");
+    let muscles = &summary["muscles"];
+    assert_eq!((muscles["source"].as_str(), muscles["muscles"].as_u64()), (Some("built-in"), Some(86)));
+    assert_eq!(muscles["unmet_frames"], 0);
+    let [knee, medial, lateral] = ["knee", "knee_medial", "knee_lateral"].map(|load| second_peak(&summary, load));
+    // Published model estimates of walking are two to five body weights; the net reaction has one.
+    assert!((2.0..5.0).contains(&knee) && medial > lateral, "{knee} {medial} {lateral}");
+
+    let found = table(&bench, "own/muscles.sto");
+    let activation = found.column("soleus_r_activation").unwrap();
+    assert!(activation.iter().all(|a| (0.01 - 1e-9..=1.0 + 1e-9).contains(a)));
+    assert!(found.column("soleus_r_force").unwrap().iter().any(|force| *force > 300.0));
+    let shares = table(&bench, "own/reactions_contact.sto");
+    let [medial, lateral] = ["knee_r_medial", "knee_r_lateral"].map(|name| shares.column(name).unwrap().to_vec());
+    let along = shares.names().iter().find(|name| name.contains("_in_joint_fy") && name.contains("tibia_r"));
+    let along = shares.column(along.unwrap()).unwrap();
+    for ((medial, lateral), down) in medial.iter().zip(&lateral).zip(along) {
+        assert!((medial + lateral + down).abs() < 1e-6 * (1.0 + down.abs()), "{medial} {lateral} {down}");
+    }
+    let cycles = fs::read_to_string(bench.folder.join("own/cycles.csv")).unwrap();
+    assert!(cycles.contains("\nknee_contact_force,r,1,0,"));
+
+    let again = forces(&bench, &["--model", "own/subject.osim", "--muscles", "--keep", "summary"], "again");
+    assert_eq!((again["muscles"]["source"].as_str(), again["muscles"]["muscles"].as_u64()), (Some("model"), Some(86)));
+    assert!((second_peak(&again, "knee") - knee).abs() < 0.1, "{} {knee}", second_peak(&again, "knee"));
+
+    // A comparison that must fail: twice the cost of the force does not leave the loads as they were.
+    let cubed = forces(&bench, &["--muscles", "--exponent", "6", "--keep", "summary"], "cubed");
+    assert!((second_peak(&cubed, "knee") - knee).abs() > 0.1);
+}
+
+#[test]
+fn without_the_option_nothing_is_computed_and_a_model_says_that_it_could() {
+    let bench = with_demo("muscles_not_asked_for");
+    let summary = forces(&bench, &["--muscles", "--keep", "model"], "own");
+    assert!(summary["muscles"].is_object());
+    let without = forces(&bench, &["--model", "own/subject.osim", "--keep", "tables"], "plain");
+    assert!(without.get("muscles").is_none() && !bench.folder.join("plain/muscles.sto").exists());
+    let findings = without["findings"].as_array().unwrap();
+    let note = findings.iter().find(|finding| finding["code"] == "muscles.available").unwrap();
+    assert!(note["message"].as_str().unwrap().contains("86 muscles"), "{note}");
+}
+
+#[test]
+fn statements_about_muscles_are_checked() {
+    let bench = with_demo("muscles_checked");
+    fs::write(bench.folder.join("reserves.xml"), "<ForceSet><objects/></ForceSet>").unwrap();
+    fs::write(bench.folder.join("emg.csv"), "time,left\n0,1\n0.01,2\n").unwrap();
+    let cases: [(&[&str], &str); 6] = [
+        (&["--reserves", "reserves.xml"], "--muscles"),
+        (&["--muscles", "--exponent", "0.5"], "found the exponent 0.5 of activations"),
+        (&["--muscles", "--condyles", "4"], "found condyles 4 m apart"),
+        (&["--muscles", "--reserves", "reserves.xml"], "no <CoordinateActuator>"),
+        (&["--muscles", "--reserves", "nothing.xml"], "nothing.xml"),
+        (&["--muscles", "--emg", "emg.csv"], "no channel has the name of a known muscle"),
+    ];
+    for (options, expected) in cases {
+        let run = bench.run(&[&BARE[..], options, &["-o", "out"]].concat());
+        assert!(run.code == Some(2) && run.stderr.contains(expected), "{options:?}: {}", run.stderr);
+        assert!(!bench.folder.join("out").exists());
+    }
+}
