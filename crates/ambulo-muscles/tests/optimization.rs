@@ -333,8 +333,8 @@ fn recordings_agree_with_their_exact_solutions() {
         let Some(found) = recorded(name, 2.0, 1.0) else { return };
         let Recorded { activation, reserve, violation, steps, most, frames } = found;
         println!(
-            "{name}: {frames} frames, activation {activation:.1e}, reserve {reserve:.1e} N.m, optimality {violation:.1e}, \
-             {:.1} steps per frame, at most {most}",
+            "{name}: {frames} frames, activation {activation:.1e}, reserve {reserve:.1e} N.m, optimality \
+             {violation:.1e}, {:.1} steps per frame, at most {most}",
             steps as f64 / frames as f64
         );
         assert!(frames == 40 && activation < 1e-5 && violation < 1e-10, "{name}");

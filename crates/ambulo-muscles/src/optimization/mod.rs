@@ -7,17 +7,17 @@
 //!   x_j(y_j) = clip( sign(y_j) (|y_j| / (p w_j))^(1/(p - 1)) )
 //!   dual:  minimise φ(λ) = Σ h_j(y_j) - λᵀτ,   ∇φ = C x - τ,   ∇²φ = Σ (dx_j/dy_j) c_j c_jᵀ   (clipped actuators: 0)
 //!
-//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps. A whole step that does not halve
-//! the residual is shortened, if it passes the minimum along its direction, to where the slope has fallen to a tenth.
-//! For p = 2, φ is piecewise quadratic: once the right actuators are free, a whole step is exact.
+//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps. A whole step that does not
+//! halve the residual is shortened, if it passes the minimum along its direction, to where the slope has fallen to a
+//! tenth. For p = 2, φ is piecewise quadratic: once the right actuators are free, a whole step is exact.
 //!
 //! The optimum x is unique, and so is the result: a start from the λ of the frame before saves steps and nothing else.
 //!
-//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or 1e-9 of it (1e-6 for exponents above 6) if two
-//! steps in a row did not halve what is left: with exponents above 2, small controls are steep functions of y, and y is
-//! a difference of prices. Coordinates that no actuator moves are left out, and their τ is unmet. If no x within the bounds gives τ, the
-//! same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of multipliers): x tends to the
-//! controls with the least unmet forces, which are reported.
+//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or 1e-9 of it (1e-6 for exponents above 6)
+//! if two steps in a row did not halve what is left: with exponents above 2, small controls are steep functions of y,
+//! and y is a difference of prices. Coordinates that no actuator moves are left out, and their τ is unmet. If no x
+//! within the bounds gives τ, the same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of
+//! multipliers): x tends to the controls with the least unmet forces, which are reported.
 //!
 //! | code | symbol | unit | shape |
 //! |---|---|---|---|
@@ -211,7 +211,8 @@ impl Optimizer {
             self.centre.copy_from_slice(&self.multipliers);
             iterations += self.minimise(tau, Some(weight)).iterations;
             self.evaluate(tau, None);
-            last = Convergence { iterations, residual: self.residual(), is_met: self.residual() <= self.close_enough() };
+            let residual = self.residual();
+            last = Convergence { iterations, residual, is_met: residual <= self.close_enough() };
             if last.is_met {
                 break;
             }
