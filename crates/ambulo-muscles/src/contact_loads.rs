@@ -13,8 +13,8 @@
 //! | d | distance between the centres of pressure of both condyles | m |
 //! | s | +1 on the right, -1 on the left | |
 //!
-//! Assumed: both condyles touch in points at d / 2 on each side of the knee centre, ligaments carry no frontal moment. A
-//! negative share means that this condyle would lift off: then ligaments carry a moment that is not modelled.
+//! Assumed: both condyles touch in points at d / 2 on each side of the knee centre, and ligaments carry no frontal
+//! moment. A negative share means that this condyle would lift off: then ligaments carry a moment that is not modelled.
 //!
 //! Not handled: contact areas, ligaments, the patella's own load.
 //! Pinned by: tests/contact_loads.rs (OpenSim's JointReaction)
@@ -36,11 +36,11 @@ pub const KNEE_WIDTH_M: f64 = 0.09;
 pub struct JointLoad {
     /// The body whose joint to its parent this is: the child.
     pub body: BodyId,
-    /// Force [N] and moment about the joint centre [N.m] of the parent on the child in the axes of the child's frame, as
-    /// OpenSim's JointReaction gives them; one per frame.
+    /// Force [N] and moment about the joint centre [N.m] of the parent on the child in the axes of the child's frame,
+    /// as OpenSim's JointReaction gives them; one per frame.
     pub in_child: Vec<Wrench>,
-    /// The same load on the distal segment in axes of the joint: forward (floating axis of the joint coordinate system),
-    /// up (long axis of the distal segment), and to the right, perpendicular to both.
+    /// The same load on the distal segment in axes of the joint: forward (floating axis of the joint coordinate
+    /// system), up (long axis of the distal segment), and to the right, perpendicular to both.
     pub in_joint: Vec<Wrench>,
 }
 

@@ -31,8 +31,8 @@ pub struct MuscleWeight {
     pub weight: f64,
 }
 
-/// Motors at coordinates that help where muscles are too weak or missing. Their cost is (force / optimal force)ᵖ. The motors
-/// of the model are always there, within their control ranges.
+/// Motors at coordinates that help where muscles are too weak or missing. Their cost is (force / optimal force)ᵖ. The
+/// motors of the model are always there, within their control ranges.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reserves {
     /// An unlimited motor at every free coordinate that has none in the model.

@@ -78,8 +78,8 @@ pub struct FrameValues {
     pub lengths: Vec<f64>,
     /// Lengthening speeds of the paths [m/s].
     pub speeds: Vec<f64>,
-    /// Generalised force that muscles and motors must exert at each coordinate of [`MuscleSolver::coordinates`]: that of
-    /// inverse dynamics, with those of coordinates that follow [N.m or N].
+    /// Generalised force that muscles and motors must exert at each coordinate of [`MuscleSolver::coordinates`]: that
+    /// of inverse dynamics, with those of coordinates that follow [N.m or N].
     pub required: Vec<f64>,
     /// Generalised force of the motors at each of these coordinates [N.m or N].
     pub reserves: Vec<f64>,

@@ -8,6 +8,7 @@ use super::{
     JointAxis, JointSpeeds, Marker, Model, ModelError, Resistance,
 };
 use crate::findings::{Code, Finding, Findings};
+use crate::numerics::counted;
 use crate::spatial::{Inertia, InertiaError, Mat3, Vec3};
 use ambulo_formats::osim::{
     OsimAxis, OsimBody, OsimBushing, OsimConstraint, OsimCoordinate, OsimFrame, OsimFunction, OsimJoint, OsimJointKind,

@@ -9,8 +9,8 @@
 //! Newton's method from a table; x grows with u, so a root outside the bracket is replaced by its middle. Beyond both
 //! ends the curve is straight.
 //!
-//! Source: Millard, Uchida, Seth, Delp 2013, "Flexing computational muscle", as computed in OpenSim
-//! (OpenSim/Common/SegmentedQuinticBezierToolkit.cpp, `calcQuinticBezierCornerControlPoints`); the paper was not opened.
+//! Source: Millard, Uchida, Seth, Delp 2013, "Flexing computational muscle" (unverified page), as computed in OpenSim
+//! (OpenSim/Common/SegmentedQuinticBezierToolkit.cpp, `calcQuinticBezierCornerControlPoints`).
 //! Pinned by: tests/curves.rs
 
 /// Slopes that differ by less than this are parallel: the square root of the machine's precision, as in OpenSim.

@@ -2,7 +2,7 @@
 //!
 //! | curve | pieces between the abscissas |
 //! |---|---|
-//! | active force against length | least length, middle of the steep part, middle of the shallow part, 1, middle of the descending part, greatest length |
+//! | active force, length | least, middle of the steep and of the shallow part, 1, middle of the descent, greatest |
 //! | force against velocity | -1, -0.9, 0, 0.9, 1 |
 //! | passive force against length | 1 + ε₀, end of the toe, 1 + ε₁ |
 //!

@@ -8,7 +8,8 @@
 //!
 //! OpenSim solves the last equation for f by Newton's method to 1e-6 in v; both branches have a closed form:
 //!
-//!   shortening   f = (c + v) / (c - v / A)                   lengthening  f = (c + K F v) / (c + K v),  K = (2 + 2/A)/(F - 1)
+//!   shortening   f = (c + v) / (c - v / A)
+//!   lengthening  f = (c + K F v) / (c + K v),   K = (2 + 2/A)/(F - 1)
 //!
 //! From f = θ F (θ = `straight_from`) on, the curve is its own tangent; below v = -c it would be negative and is 0.
 //!

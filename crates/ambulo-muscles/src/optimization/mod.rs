@@ -7,16 +7,17 @@
 //!   x_j(y_j) = clip( sign(y_j) (|y_j| / (p w_j))^(1/(p - 1)) )
 //!   dual:  minimise φ(λ) = Σ h_j(y_j) - λᵀτ,   ∇φ = C x - τ,   ∇²φ = Σ (dx_j/dy_j) c_j c_jᵀ   (clipped actuators: 0)
 //!
-//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps. A whole step that does not halve
-//! the residual is shortened, if it passes the minimum along its direction, to where the slope has fallen to a tenth.
-//! For p = 2, φ is piecewise quadratic: once the right actuators are free, a whole step is exact.
+//! φ is convex with a continuous gradient. It is minimised by semi-smooth Newton steps. A whole step that does not
+//! halve the residual is shortened, if it passes the minimum along its direction, to where the slope has fallen to a
+//! tenth. For p = 2, φ is piecewise quadratic: once the right actuators are free, a whole step is exact.
 //!
 //! The optimum x is unique, and so is the result: a start from the λ of the frame before saves steps and nothing else.
 //!
-//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or 1e-9 of it if two steps in a row did not halve
-//! what is left: with exponents above 2 and muscles far too weak, y is a small difference of large prices. Coordinates that no actuator moves are left out, and their τ is unmet. If no x within the bounds gives τ, the
-//! same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of multipliers): x tends to the
-//! controls with the least unmet forces, which are reported.
+//! Converged means: in every row, |C x - τ| <= 1e-12 (|τ| + Σ |C_j x_j|), or 1e-9 of it (1e-6 for exponents above 6)
+//! if two steps in a row did not halve what is left: with exponents above 2, small controls are steep functions of y,
+//! and y is a difference of prices. Coordinates that no actuator moves are left out, and their τ is unmet. If no x
+//! within the bounds gives τ, the same steps minimise φ(λ) + Σ (λ - μ)²/(2 t) with a sequence of centres μ (method of
+//! multipliers): x tends to the controls with the least unmet forces, which are reported.
 //!
 //! | code | symbol | unit | shape |
 //! |---|---|---|---|
@@ -39,8 +40,10 @@ use factor::Factor;
 
 /// Share of a row's terms to which the equations are met.
 const CLOSE: f64 = 1e-12;
-/// The same, if rounding allows no more.
-const CLOSE_ENOUGH: f64 = 1e-9;
+/// The same, if rounding allows no more: for exponents up to `STEEP`, and above.
+const CLOSE_ENOUGH: [f64; 2] = [1e-9, 1e-6];
+/// Above this exponent, x(y) is so steep at 0 that the last digit of y moves a small control visibly.
+const STEEP: f64 = 6.0;
 /// Steps after which a problem is taken for one without solution.
 const MOST_STEPS: usize = 60;
 /// Centres of the method of multipliers.
@@ -208,7 +211,8 @@ impl Optimizer {
             self.centre.copy_from_slice(&self.multipliers);
             iterations += self.minimise(tau, Some(weight)).iterations;
             self.evaluate(tau, None);
-            last = Convergence { iterations, residual: self.residual(), is_met: self.residual() <= CLOSE_ENOUGH };
+            let residual = self.residual();
+            last = Convergence { iterations, residual, is_met: residual <= self.close_enough() };
             if last.is_met {
                 break;
             }
@@ -223,7 +227,7 @@ impl Optimizer {
         self.evaluate(tau, weight);
         for iterations in 0..MOST_STEPS {
             let residual = self.residual();
-            let stalls = residual <= CLOSE_ENOUGH && residual >= 0.5 * before[1] && before[1] >= 0.5 * before[0];
+            let stalls = residual <= self.close_enough() && residual >= 0.5 * before[1] && before[1] >= 0.5 * before[0];
             if residual <= CLOSE || stalls {
                 return Convergence { iterations, residual, is_met: true };
             }
@@ -235,7 +239,11 @@ impl Optimizer {
             }
         }
         let residual = self.residual();
-        Convergence { iterations: MOST_STEPS, residual, is_met: residual <= CLOSE_ENOUGH }
+        Convergence { iterations: MOST_STEPS, residual, is_met: residual <= self.close_enough() }
+    }
+
+    fn close_enough(&self) -> f64 {
+        CLOSE_ENOUGH[usize::from(self.exponent > STEEP)]
     }
 
     /// Diagonal of the Hessian with every actuator free, at control 1: the scale of each row.

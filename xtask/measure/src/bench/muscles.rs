@@ -6,8 +6,8 @@
 //! | muscle forces | paths, strengths, static optimisation, loads on the bodies |
 //! | whole | muscle forces, and inverse dynamics with them: the reactions of all joints |
 //!
-//! If OpenSim is installed as a peer, its static optimisation and joint reaction of the same walk run right after, and the
-//! ratio is printed.
+//! If OpenSim is installed as a peer, its static optimisation and joint reaction of the same walk run right after, and
+//! the ratio is printed.
 
 use super::Row;
 use super::timing::{Timing, cpu_us};
@@ -86,7 +86,8 @@ pub(super) fn bench() -> Result<Vec<Row>, String> {
         rows.extend(own);
         match opensim_us(short) {
             Ok(us) => {
-                println!("OpenSim, static optimisation and joint reaction: {us:.0} us/frame, {:.0} times ours", us / whole);
+                let ratio = us / whole;
+                println!("OpenSim, static optimisation and joint reaction: {us:.0} us/frame, {ratio:.0} times ours");
                 let timing = Timing::single(us);
                 rows.push(Row { quantity: format!("OpenSim, {name}"), unit: "us/frame", timing });
             }
