@@ -72,6 +72,7 @@ usage: cargo xtask <command>
   twins             judge recordings, and altered copies of them: faults of laboratories, motions that no person could make, plates
                     that were taken away  [--only NAME] [--fault NAME] [--write: docs/measured/TWINS.md]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
+  validate-people   the same by kind of person and laboratory, also of those who had no part in the fit  [--write: docs/measured/PEOPLE.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]
@@ -107,7 +108,7 @@ const OWN: [&str; 14] = [
 ];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 21] = [
+const MEASUREMENTS: [&str; 22] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -123,6 +124,7 @@ const MEASUREMENTS: [&str; 21] = [
     "normative-bands",
     "twins",
     "validate",
+    "validate-people",
     "optimal-peers",
     "optimal-walk",
     "physical-peers",

@@ -39,8 +39,9 @@ enum Numbers {
     Times,
 }
 
-const PAGES: [Page; 11] = [
+const PAGES: [Page; 12] = [
     Page { name: "VALIDATION", command: "validate", numbers: Numbers::Results },
+    Page { name: "PEOPLE", command: "validate-people", numbers: Numbers::Results },
     Page { name: "GROUND_FIT", command: "fit-ground", numbers: Numbers::Results },
     Page { name: "WALK_BANDS", command: "walk-bands", numbers: Numbers::Results },
     Page { name: "OPTIMAL_WALK", command: "optimal-walk", numbers: Numbers::Results },

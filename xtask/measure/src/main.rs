@@ -22,6 +22,7 @@ mod reproduction;
 mod simulators;
 mod twins;
 mod validate;
+mod validate_people;
 mod walk_bands;
 mod walk_plans;
 mod workspace;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         ("fit-ground", _) => fit_ground::run(rest),
         ("twins", _) => twins::run(rest),
         ("validate", _) => validate::run(rest),
+        ("validate-people", _) => validate_people::run(rest),
         ("walk-bands", _) => walk_bands::run(rest),
         ("walk-plans", []) => walk_plans::run(),
         ("optimal-peers", _) => optimal_peers::run(rest),

@@ -4,7 +4,9 @@
 //! Hz filter, prediction. The tables are printed; `target/validation.json` has the same numbers; with `--write` the
 //! page goes to docs/measured/VALIDATION.md. A failed criterion is listed as missed and is not an error.
 
+mod further_people;
 mod page;
+mod people;
 mod personal;
 pub(crate) mod recording;
 mod refit;
