@@ -61,12 +61,6 @@ pub(crate) struct Model {
 
 #[pymethods]
 impl Model {
-    /// The muscles of the file, or of the built-in body.
-    fn muscle_set(&self, py: Python<'_>) -> PyResult<&MuscleSet> {
-        let set = self.muscle_set.get_or_init(|| muscles::muscles_of(&self.content, &self.model));
-        set.as_ref().map_err(|message| refused(py, message.clone()))
-    }
-
     #[new]
     fn new(py: Python<'_>, data: PyBackedBytes, name: PathBuf) -> PyResult<Model> {
         let mut findings = Findings::default();
@@ -535,6 +529,12 @@ impl Model {
 }
 
 impl Model {
+    /// The muscles of the file, or of the built-in body.
+    fn muscle_set(&self, py: Python<'_>) -> PyResult<&MuscleSet> {
+        let set = self.muscle_set.get_or_init(|| muscles::muscles_of(&self.content, &self.model));
+        set.as_ref().map_err(|message| refused(py, message.clone()))
+    }
+
     pub(crate) fn library(&self) -> &ambulo::model::Model {
         &self.model
     }
