@@ -6,8 +6,8 @@
 //! over the frames. It is then stood into the standing trial with them, as the built-in body ([`super::completion`]).
 //!
 //! A lacking marker whose segment has fewer than two others keeps its usual place on the scaled model, which is
-//! reported: the motion does not show it, because a joint centre and one marker are no pose. A foot is then level in the standing
-//! trial.
+//! reported: the motion does not show it, because a joint centre and one marker are no pose. A foot is then level in
+//! the standing trial.
 
 use super::completion::{LEAST_FRAMES, placed, poses, report};
 use crate::findings::{Code, Findings};
