@@ -277,8 +277,8 @@ fn forward(
                 return (snapped(-travel, up), Heading::Walking);
             }
             let message = format!(
-                "the body moves at {} to its facing direction; forward is the facing direction. hint: check whether left \
-                 and right markers are swapped",
+                "the body moves at {} to its facing direction; forward is the facing direction. hint: check whether \
+                 left and right markers are swapped",
                 degrees(apart)
             );
             findings.report(Code::LaboratorySideways, message);
@@ -336,8 +336,8 @@ fn travel(
         "its direction from beginning to end"
     };
     let message = format!(
-        "the body turns by about {}; forward is {chosen}, so that pelvis angles and fore-aft forces are less meaningful \
-         than in a straight walk",
+        "the body turns by about {}; forward is {chosen}, so that pelvis angles and fore-aft forces are less \
+         meaningful than in a straight walk",
         degrees(turn)
     );
     findings.report(Code::LaboratoryTurning, message);

@@ -57,8 +57,8 @@ pub enum MarkerError {
     /// Two points for most names, at different places.
     #[error(
         "{count} names have two points each, {apart_m:.1} m apart (first {listed}): the markers are those of two \
-         people; expected one person. hint: export one person, or give the markers of each a prefix with the name, such as \
-         `Anna:LASI`"
+         people; expected one person. hint: export one person, or give the markers of each a prefix with the name, \
+         such as `Anna:LASI`"
     )]
     TwoPeople {
         /// Number of names with two points.

@@ -51,8 +51,8 @@ fn least_turn(body: &Subject, moving: &MarkerRecording, side: Side, findings: &m
     let turn = found.map(|cross_talk| cross_talk.turn_rad).filter(|turn| turn.abs() <= MOST_TURN);
     let message = match (found, turn) {
         (Some(cross_talk), Some(turn)) => format!(
-            "the axis of the {side} knee was turned by {} about the long axis of the thigh, so that varus follows flexion \
-             least; before, it ranged over {} (r {:.2})",
+            "the axis of the {side} knee was turned by {} about the long axis of the thigh, so that varus follows \
+             flexion least; before, it ranged over {} (r {:.2})",
             degrees(turn.to_degrees()),
             degrees(cross_talk.varus_range_rad.to_degrees()),
             cross_talk.r

@@ -1,9 +1,9 @@
 //! Joint moments with markers whose names say nothing, against those with the names.
 //!
 //! Of the first clean recording of each person with a standing trial, the technical markers of thighs and shanks are
-//! renamed `m1`, `m2` and so on in both files, and the markers of knees and ankles are left in the standing trial alone:
-//! the way most research laboratories record. People with fewer than two technical markers on a thigh or shank are left
-//! out, because with one the segment is not shown, which a warning says.
+//! renamed `m1`, `m2` and so on in both files, and the markers of knees and ankles are left in the standing trial
+//! alone: the way most research laboratories record. People with fewer than two technical markers on a thigh or shank
+//! are left out, because with one the segment is not shown, which a warning says.
 
 use super::changes::bare;
 use super::clean::{Files, people};

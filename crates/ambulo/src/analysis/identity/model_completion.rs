@@ -2,12 +2,12 @@
 //!
 //! Scaling moves the markers of a model to where the standing trial shows them; one that it lacks would keep its usual
 //! place, which is some centimetres from that on the person, and turn its segment by it. Here the model, scaled by the
-//! markers that are there, follows the motion without the lacking markers; their places on the body are the medians over
-//! the frames. It is then stood into the standing trial with them, as the built-in body ([`super::completion`]).
+//! markers that are there, follows the motion without the lacking markers; their places on the body are the medians
+//! over the frames. It is then stood into the standing trial with them, as the built-in body ([`super::completion`]).
 //!
-//! A lacking marker whose segment has fewer than two others keeps its usual place on the scaled model, which is reported:
-//! the motion does not show it, because a joint centre and one marker are no pose. A foot is then level in the standing
-//! trial.
+//! A lacking marker whose segment has fewer than two others keeps its usual place on the scaled model, which is
+//! reported: the motion does not show it, because a joint centre and one marker are no pose. A foot is then level in
+//! the standing trial.
 
 use super::completion::{LEAST_FRAMES, placed, poses, report};
 use crate::findings::{Code, Findings};

@@ -78,9 +78,9 @@ pub(super) fn exchanged_back(
     }
     let message = format!(
         "left and right are exchanged in all labels of the {which}: by heels, toes and pelvis {wrong} of {all} pairs \
-         of markers are on the other side, so that the person is mirrored; the labels were exchanged back. hint: correct the \
-         labels; if the axes of the laboratory are left-handed (one axis mirrored) the labels are right, and left and \
-         right of the results are exchanged"
+         of markers are on the other side, so that the person is mirrored; the labels were exchanged back. hint: \
+         correct the labels; if the axes of the laboratory are left-handed (one axis mirrored) the labels are right, \
+         and left and right of the results are exchanged"
     );
     let short = format!("left and right were exchanged in all labels of the {which} and were exchanged back");
     contradictions.push(short);

@@ -455,8 +455,9 @@ impl QualityEvidence<'_> {
         let deviation_deg = deviation.to_degrees().min(180.0);
         Measure::AxialRotation.reason(deviation_deg, |limit| {
             format!(
-                "keypoints hardly show axial rotations: that of the thighs is known to {} (at most {limit}), so moments about the long axes, and how the others are divided between flexion and \
-                 adduction, are uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or \
+                "keypoints hardly show axial rotations: that of the thighs is known to {} (at most {limit}), so \
+                 moments about the long axes, and how the others are divided between flexion and adduction, are \
+                 uncertain; the ankle moment changes by 0.1 N.m/kg with every 10 mm by which toe or \
                  heel are misplaced",
                 degrees(deviation_deg)
             )
