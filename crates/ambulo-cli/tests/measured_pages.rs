@@ -3,6 +3,7 @@
 //! | page | sample |
 //! |---|---|
 //! | VALIDATION | errors of the forces of each foot, 12 trials |
+//! | PEOPLE | a walk of a laboratory that recorded one person once |
 //! | GROUND_FIT | the fitted numbers, figures of seven straight walks |
 //! | WALK_BANDS | peaks of free walking |
 //! | OPTIMAL_WALK | slip and knee of three walks |
@@ -192,6 +193,43 @@ fn predicted_forces_have_the_errors_of_the_pages() {
         }
     }
     assert!(compared >= 280, "{compared}");
+}
+
+/// The walk of KU Leuven: its person is the only one of the laboratory.
+#[test]
+fn predicted_forces_of_a_laboratory_have_the_errors_of_the_page() {
+    let Some(data) = shared_data::data() else { return };
+    let bench = Workbench::empty("measured_pages_people");
+    let path = |name: &str| data.join("kuleuven-walk-squat").join(name).display().to_string();
+    let (markers, plates) = (path("markers.trc"), path("grf.mot"));
+    let run = bench.run(&[
+        "forces",
+        &markers,
+        "--predict",
+        "--mass",
+        "64.6",
+        "--grf",
+        &plates,
+        "--right",
+        "calcn_r:1_ground_force_",
+        "--left",
+        "calcn_l:ground_force_",
+        "--keep",
+        "summary",
+        "--json",
+        "-o",
+        "out",
+    ]);
+    let summary: Value = serde_json::from_str(&run.done().stdout).unwrap();
+    let feet = summary["comparison"]["feet"].as_array().unwrap();
+    let of = |key: &str, figure: &str, factor: f64| mean(feet, |foot| factor * number(&foot[key][figure]));
+    let errors = COMPONENTS.iter().flat_map(|(_, key)| [of(key, "rmse_bw", 100.0), of(key, "r", 1.0)]);
+    let centres = ["fore_aft_weighted_mm", "lateral_weighted_mm"].map(|figure| of("center_of_pressure", figure, 1.0));
+    let page = MeasuredPage::read("PEOPLE");
+    let row = page.row("## The same, by laboratory", &["KU Leuven", "adults", "walking"]);
+    for (cell, found) in row[5..].iter().zip(errors.chain(centres)) {
+        page.compare("KU Leuven", cell, found);
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use ambulo::kinematics::Trajectory;
 use ambulo::model::BySide;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::motion::{Motion, TimeGrid};
-use ambulo::study::{self, Settings, Source};
+use ambulo::study::{self, GroundSettings, Settings, Source};
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
@@ -277,6 +277,28 @@ fn recordings_without_a_walk_have_their_own_words() {
         let read = job.read(&mut |path: &Path| fs::read(path).map_err(FileError::from), &mut findings).unwrap();
         let found = read.run(&mut findings).unwrap().activity;
         assert_eq!(found.kind, expected, "{recording}: {found:?}");
+    }
+}
+
+/// At 4.5 m/s a stance foot does not settle at the speed of the belt in a motion that is low-passed at 6 Hz; of this
+/// runner no stance was found.
+#[test]
+fn fast_running_on_a_belt_is_running() {
+    let Some(folder) = data() else { return };
+    let runners = folder.join("runners-ufabc");
+    for (recording, speed_m_s) in [("RBDS08runT25.c3d", 2.5), ("RBDS08runT45.c3d", 4.5)] {
+        let mut job = Job::of(runners.join("RBDS08").join(recording));
+        job.standing = Some(runners.join("RBDS08/RBDS08static.trc"));
+        job.markers = Some(runners.join("markers.toml").display().to_string());
+        (job.size.mass_kg, job.size.height_m) = (Some(67.6), Some(1.80));
+        job.settings.ground = GroundSettings::Predicted;
+        let mut findings = Findings::default();
+        let read = job.read(&mut |path: &Path| fs::read(path).map_err(FileError::from), &mut findings).unwrap();
+        let found = read.run(&mut findings).unwrap();
+        let belt = found.prediction.unwrap().prediction.footfalls.floor_velocity.norm();
+        assert!((belt / speed_m_s - 1.0).abs() < 0.1, "{recording}: the belt moves at {belt} m/s");
+        assert_eq!(found.activity.kind, ActivityKind::Run, "{recording}: {:?}", found.activity);
+        assert!(found.activity.treadmill && found.activity.steps >= 4, "{recording}: {:?}", found.activity);
     }
 }
 

@@ -10,6 +10,7 @@ mod fit_gait;
 mod fit_ground;
 mod harmonics;
 mod keypoints;
+mod motion_bandwidth;
 mod normative;
 mod normative_bands;
 mod optimal_peers;

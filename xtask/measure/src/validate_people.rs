@@ -6,12 +6,14 @@
 //! laboratories: a laboratory counts once, however many people it recorded. The page has no figure of a single person
 //! of data that may only be used for fitting and testing.
 
+use crate::motion_bandwidth::bandwidth;
 use crate::validate::recording::{self, Group, Population, Recording};
 use crate::workspace;
 use ambulo::analysis::GroundAgreement;
 use ambulo::findings::Findings;
 use ambulo::ground::predict::Prescribed;
 use ambulo::numerics;
+use ambulo::study::Recording as Recorded;
 use ambulo::study::validation::baselines::Baseline;
 use ambulo::study::validation::{Component, Figure, JudgedTrial, LegJoint, Method, NotJudged, TextTable as Table};
 use std::path::Path;
@@ -51,6 +53,8 @@ struct Judged {
     is_fitted: bool,
     /// The recognised activity.
     activity: &'static str,
+    /// Of the recorded markers, if there are any [Hz].
+    bandwidth_hz: f64,
     trial: JudgedTrial,
 }
 
@@ -86,9 +90,14 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 /// An error, or why plates cannot judge the trial.
 fn judge(recording: Recording, is_fitted: bool, data: &Path) -> Result<Result<Judged, NotJudged>, String> {
     let source = recording.read(data)?;
+    let bandwidth_hz = match &source.recording {
+        Recorded::Markers(markers) => bandwidth(&markers.trial.recording.markers),
+        _ => None,
+    };
+    let bandwidth_hz = bandwidth_hz.unwrap_or(f64::NAN);
     let outcome = recording.predict(&source, Prescribed::default())?;
     let trial = JudgedTrial::of(recording.label, recording.subject, &outcome, &Findings::default());
-    Ok(trial.map(|trial| Judged { recording, is_fitted, activity: outcome.activity.kind.words(), trial }))
+    Ok(trial.map(|trial| Judged { recording, is_fitted, activity: outcome.activity.kind.words(), bandwidth_hz, trial }))
 }
 
 fn page(judged: &[Judged], not_judged: &[(Recording, NotJudged)]) -> String {
@@ -105,12 +114,17 @@ fn page(judged: &[Judged], not_judged: &[(Recording, NotJudged)]) -> String {
          ## People who took no part in the fit\n\n{}\n\
          ## The same, by laboratory\n\n{}\n\
          ## People of the fit\n\n{}\n\
+         ## Bandwidth of the recorded markers\n\n\
+         The frequency below which 99 % of the acceleration of the fastest markers lies, median over the fastest quarter \
+         of them. Raw markers have a noise floor up to half of the frame rate; where it is missing, the markers were \
+         low-passed before publication.\n\n{}\n\
          ## Running: the prediction and Newton's law alone\n\n{}\n\
          ## Recognised activities of people who took no part in the fit\n\n{}\n\
          ## Trials that plates cannot judge\n\n{}",
         by_kind(&strangers),
         by_laboratory(&strangers),
         by_kind(&fitted),
+        bandwidths(judged),
         running(&strangers),
         activities(&strangers),
         unjudged(not_judged)
@@ -160,6 +174,19 @@ fn by_laboratory(judged: &[&Judged]) -> String {
             let mean = |figure: Figure| over_laboratories(&own, |one| figure.of(&one.trial.agreement));
             table.row(first.into_iter().chain(counts).chain(cells(mean)));
         }
+    }
+    table.text()
+}
+
+fn bandwidths(judged: &[Judged]) -> String {
+    let all: Vec<&Judged> = judged.iter().filter(|one| one.bandwidth_hz.is_finite()).collect();
+    let mut table = Table::new(&["laboratory", "trials", "least [Hz]", "median", "most"]);
+    for laboratory in names(&all, |recording| recording.laboratory) {
+        let own = chosen(&all, |recording| recording.laboratory == laboratory);
+        let mut found: Vec<f64> = own.iter().map(|one| one.bandwidth_hz).collect();
+        found.sort_by(f64::total_cmp);
+        let three = [found[0], found[found.len() / 2], found[found.len() - 1]].map(|x| number(x, 1));
+        table.row([laboratory.to_owned(), found.len().to_string()].into_iter().chain(three));
     }
     table.text()
 }

@@ -1,5 +1,6 @@
-//! People of further laboratories, who have no part in the fit. Facts, masses and traps: README.md of the data. The plates of the runners have a scale fault, so the plates' mass is used there; their centre of pressure is
-//! wrong sideways.
+//! People of further laboratories, who have no part in the fit. Facts, masses and traps: README.md of the data. The
+//! plates of the runners have a scale fault, so the plates' mass is used there; their centre of pressure is wrong
+//! sideways.
 
 use super::people::Person;
 use super::recording::{Group, Kind, Population, Recording};
@@ -38,8 +39,8 @@ const fn basel(subject: &'static str, population: Population, folder: &'static s
     }
 }
 
-/// Lower body only. The plates carry 96.4 % of the stated masses: mass is the mean of what they carry at 2.5 and at 3.5
-/// m/s [kg], then stature [m].
+/// Lower body only. The plates carry 96.4 % of the stated masses; `size` is the mean mass that they carry at 2.5 and
+/// 3.5 m/s [kg], and the stature [m].
 const fn ufabc(
     subject: &'static str,
     folder: &'static str,

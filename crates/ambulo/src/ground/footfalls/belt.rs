@@ -2,8 +2,9 @@
 //!
 //! While the body is supported, the lower foot is usually in stance, and moves with the floor. The velocities of the
 //! lowest point of both feet therefore cluster at the velocity of the floor; velocities of swinging feet scatter. The
-//! centre of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). Pieces of the
-//! recording are evaluated separately as well, so that a belt may change its speed slowly.
+//! centre of the cluster is found by mean shift from the median (Fukunaga, Hostetler 1975, unverified). In fast running
+//! the velocity of a stance foot does not settle in a low-passed motion, so there the cluster may be wider. Pieces of
+//! the recording are evaluated separately as well, so that a belt may change its speed slowly.
 
 use super::signals::Signals;
 use crate::numerics::median;
@@ -16,6 +17,10 @@ const CARRIED: f64 = 0.5;
 const LEVEL: f64 = 0.05;
 /// Radius of a cluster of velocities, as a share of √(g L).
 const TOGETHER: f64 = 0.1;
+/// The same where the floor moves at the speed of running.
+const TOGETHER_IN_RUNNING: f64 = 0.2;
+/// Transition from walking to running, as a share of √(g L): Froude number one half (Alexander 1989).
+const RUNNING: f64 = 0.7;
 /// Speed at which the floor is at rest, as a share of √(g L) (0.09 m/s for an adult): stance feet creep by 0.03 m/s.
 const RESTS: f64 = 0.03;
 /// A belt whose speed changes by less than this share of √(g L) has a constant speed.
@@ -39,7 +44,10 @@ impl Belt {
     pub(super) fn new(signals: &Signals) -> Belt {
         let samples = samples(signals);
         let is_reliable = |(_, count): &(Vec3, usize)| *count as f64 >= MOST_AGREE * samples.len() as f64;
-        let Some((overall, _)) = mean_shift(signals, &samples).filter(is_reliable) else {
+        let runs = |(velocity, _): &(Vec3, usize)| velocity.norm() > RUNNING * signals.leg_speed;
+        let found = mean_shift(signals, &samples, TOGETHER).filter(is_reliable);
+        let in_running = || mean_shift(signals, &samples, TOGETHER_IN_RUNNING).filter(is_reliable).filter(runs);
+        let Some((overall, _)) = found.or_else(in_running) else {
             return Belt { overall: Vec3::zeros(), knots: Vec::new() };
         };
         let length = signals.frames_in(PIECE * signals.leg_time_s);
@@ -80,18 +88,18 @@ fn piece(signals: &Signals, samples: &[(usize, Vec3)], frames: Range<usize>) -> 
     let from = samples.partition_point(|(frame, _)| *frame < frames.start);
     let to = samples.partition_point(|(frame, _)| *frame < frames.end);
     let inside = &samples[from..to];
-    let (velocity, count) = mean_shift(signals, inside)?;
+    let (velocity, count) = mean_shift(signals, inside, TOGETHER)?;
     let is_reliable = count as f64 >= MOST_AGREE * inside.len() as f64 && 4 * inside.len() >= frames.len();
     is_reliable.then(|| (0.5 * (frames.start + frames.end) as f64, zero_if_at_rest(signals, velocity)))
 }
 
-/// Centre of the cluster of velocities, and their number in it.
-fn mean_shift(signals: &Signals, samples: &[(usize, Vec3)]) -> Option<(Vec3, usize)> {
+/// Centre of the cluster of velocities within a radius [√(g L)], and their number in it.
+fn mean_shift(signals: &Signals, samples: &[(usize, Vec3)], radius: f64) -> Option<(Vec3, usize)> {
     let along = |k: usize| median(samples.iter().map(|(_, v)| v[k]));
     let mut center = Vec3::new(along(0)?, along(1)?, along(2)?);
     let mut count = 0;
     for _ in 0..ROUNDS {
-        let near = samples.iter().filter(|(_, v)| (v - center).norm() < TOGETHER * signals.leg_speed);
+        let near = samples.iter().filter(|(_, v)| (v - center).norm() < radius * signals.leg_speed);
         let (sum, found) = near.fold((Vec3::zeros(), 0), |(sum, n), (_, v)| (sum + v, n + 1));
         if found == 0 {
             break;
