@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The part that is analysed [s]; filters at 6 Hz and events need a second around it.
-const PART: [f64; 2] = [3.0, 3.6];
+const PART: [f64; 2] = [3.3, 3.7];
 /// Differences of values, rates and accelerations [rad, rad/s, rad/s²; m]: the filter leaves e⁻¹⁸ of what the ends of
 /// the fitted time change, a tenth of a radian; each derivative multiplies it by the cutoff of 38 rad/s.
 const SAME: [f64; 3] = [1e-7, 1e-5, 1e-3];
