@@ -17,7 +17,8 @@ fn chain() -> Model {
         </coefficients></LinearFunction></TransformAxis><TransformAxis><coordinates></coordinates><axis>1 0 0</axis>\
         <Constant><value>0.2</value></Constant></TransformAxis><TransformAxis><coordinates>custom_0</coordinates>\
         <axis>1 0 0</axis><PolynomialFunction><coefficients>0.2 0.1 0</coefficients></PolynomialFunction>\
-        </TransformAxis><TransformAxis><coordinates>custom_1</coordinates><axis>0 1 0</axis><LinearFunction><coefficients>0.1 0\
+        </TransformAxis><TransformAxis><coordinates>custom_1</coordinates><axis>0 1 \
+        0</axis><LinearFunction><coefficients>0.1 0\
         </coefficients></LinearFunction></TransformAxis><TransformAxis><coordinates></coordinates><axis>0 0 1</axis>\
         <Constant><value>0</value></Constant></TransformAxis></SpatialTransform>";
     let joints = [

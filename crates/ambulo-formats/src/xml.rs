@@ -129,7 +129,8 @@ pub(crate) fn line_of(node: Node<'_, '_>) -> usize {
     1 + count(&node.document().input_text().as_bytes()[..node.range().start], b'\n')
 }
 
-/// Lines of elements of one document, counted from 1. For elements in the order of the document each byte is counted once.
+/// Lines of elements of one document, counted from 1. For elements in the order of the document each byte is counted
+/// once.
 pub(crate) struct LineCounter<'d> {
     text: &'d [u8],
     at: usize,

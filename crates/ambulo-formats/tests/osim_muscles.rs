@@ -32,7 +32,8 @@ fn new(forces: &str) -> String {
 fn muscle(points: &str, more: &str) -> String {
     format!(
         "<Thelen2003Muscle name=\"m1\">\n{more}<GeometryPath><PathPointSet><objects>\n{points}\n</objects>\
-         </PathPointSet><PathWrapSet><objects>\n<PathWrap><wrap_object>ball</wrap_object><range>1 -1</range></PathWrap></objects>\
+         </PathPointSet><PathWrapSet><objects>\n<PathWrap><wrap_object>ball</wrap_object><range>1 \
+         -1</range></PathWrap></objects>\
          </PathWrapSet></GeometryPath></Thelen2003Muscle>"
     )
 }

@@ -19,12 +19,11 @@
 //! Not handled: contact areas, ligaments, the patella's own load.
 //! Pinned by: tests/contact_loads.rs (OpenSim's JointReaction)
 
-use crate::body::dynamics::ReactionReader;
-use crate::body::kinematics::Trajectory;
-use crate::body::model::anatomy::LegJoint;
-use crate::body::model::{BodyId, BySide, Model, Side};
-use crate::body::spatial::{Vec3, Wrench};
-use std::ops::Range;
+use ambulo_body::dynamics::ReactionReader;
+use ambulo_body::kinematics::Trajectory;
+use ambulo_body::model::anatomy::LegJoint;
+use ambulo_body::model::{BodyId, BySide, Model, Side};
+use ambulo_body::spatial::{Vec3, Wrench};
 
 /// Distance between the centres of pressure of both condyles at a knee of [`KNEE_WIDTH_M`] [m].
 pub const CONDYLE_DISTANCE_M: f64 = 0.04;
@@ -62,17 +61,6 @@ pub struct LegLoads {
     pub joints: [JointLoad; 3],
     /// Shares of the condyles.
     pub knee: KneeShares,
-}
-
-/// Peak and impulse of a load in a stance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StanceLoad {
-    /// Greatest load [body weights].
-    pub peak_bw: f64,
-    /// Frame of the greatest load.
-    pub peak_frame: usize,
-    /// Integral of the load over time [body weights times s].
-    pub impulse_bw_s: f64,
 }
 
 /// Distance between the condyles for a knee width [m]: in proportion, and [`CONDYLE_DISTANCE_M`] if it is not known.
@@ -131,16 +119,4 @@ fn shares(in_joint: &[Wrench], side: Side, condyle_distance_m: f64) -> KneeShare
         in_joint.iter().map(half).collect()
     };
     KneeShares { condyle_distance_m, medial: share(-sign), lateral: share(sign) }
-}
-
-/// Peak and impulse of a load [N] over the frames of a stance; `None` for an empty stance or one beyond the motion.
-#[must_use]
-pub fn stance_load(load: &[f64], stance: Range<usize>, step_s: f64, body_weight_n: f64) -> Option<StanceLoad> {
-    let first = stance.start;
-    let part = load.get(stance)?;
-    let (peak, value) = part.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-    // The trapezoidal rule: both ends count half.
-    let ends = 0.5 * (part[0] + part[part.len() - 1]);
-    let impulse = (part.iter().sum::<f64>() - ends) * step_s;
-    Some(StanceLoad { peak_bw: value / body_weight_n, peak_frame: first + peak, impulse_bw_s: impulse / body_weight_n })
 }

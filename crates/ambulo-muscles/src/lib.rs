@@ -13,9 +13,6 @@
 //! | [`contact_loads`] | what hip, knee and ankle carry, and both condyles of a knee |
 //! | [`emg`] | electromyograms: channels by name, envelopes, on/off, comparison with activations |
 
-/// The body and its mechanics, so that one dependency is enough.
-pub use ambulo_body as body;
-
 pub mod built_in;
 pub mod set;
 
@@ -23,11 +20,14 @@ mod export;
 mod import;
 pub mod path;
 mod scaled;
+#[doc(hidden)]
 pub mod wrap;
 
+#[doc(hidden)]
 pub mod curves;
 pub mod strength;
 
+#[doc(hidden)]
 pub mod optimization;
 
 pub mod settings;

@@ -26,6 +26,7 @@ pub struct Muscle {
 }
 
 /// The path of a muscle: straight lines between points, and around surfaces.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MusclePath {
     /// Points from origin to insertion.
@@ -35,6 +36,7 @@ pub struct MusclePath {
 }
 
 /// A point of a path, fixed to a body or moving on it.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPoint {
     /// Name of the point.
@@ -49,6 +51,7 @@ pub struct PathPoint {
 pub const RANGE_MARGIN: f64 = 1e-5;
 
 /// Where a point of a path is on its body [m].
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum PointPlace {
     /// Always at one place.
@@ -74,6 +77,7 @@ pub enum PointPlace {
 }
 
 /// A surface that a path avoids between two of its points.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PathWrap {
     /// Index in [`MuscleSet::wraps`].
@@ -87,6 +91,7 @@ pub struct PathWrap {
 }
 
 /// How OpenSim finds a path over an ellipsoid.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum WrapMethod {
     /// Both of the others, by the place.
@@ -99,6 +104,7 @@ pub enum WrapMethod {
 }
 
 /// A surface fixed to a body.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrapObject {
     /// Name of the surface.
@@ -116,6 +122,7 @@ pub struct WrapObject {
 }
 
 /// The shape of a surface for paths, around its own origin.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WrapShape {
     /// A cylinder about the z axis.
@@ -133,6 +140,7 @@ pub enum WrapShape {
 }
 
 /// One side of a surface: the half-space in which an axis of its frame is positive or negative.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quadrant {
     /// 0, 1 or 2 for x, y or z.
@@ -165,6 +173,7 @@ pub struct MuscleParameters {
 }
 
 /// The curves of a muscle, by the model of OpenSim whose parameters they have.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum MuscleCurves {
     /// Thelen 2003, OpenSim's `Thelen2003Muscle`.
@@ -174,6 +183,7 @@ pub enum MuscleCurves {
 }
 
 /// Parameters of the curves of Thelen 2003; the defaults are those of OpenSim.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThelenCurves {
     /// Strain of the tendon at the greatest isometric force (`FmaxTendonStrain`).
@@ -197,6 +207,7 @@ pub struct ThelenCurves {
 /// for a damped muscle (`fiber_damping` at least 0.001) or a rigid tendon the least active value and both slopes at the
 /// greatest velocities are 0, whatever the file has; otherwise they are at least .1 and half the slopes near these
 /// velocities.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct MillardCurves {
     /// Active force against length (`ActiveForceLengthCurve`): least, transition and greatest length [optimal fibre

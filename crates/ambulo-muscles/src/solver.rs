@@ -14,15 +14,15 @@
 //! Source: OpenSim's StaticOptimization (see [`optimization`](crate::optimization)).
 //! Pinned by: tests/solver.rs
 
-use crate::body::dynamics::BodyLoad;
-use crate::body::kinematics::Posture;
-use crate::body::model::{CoordinateId, Drive, Function, Model};
 use crate::curves::ForceCurves;
 use crate::optimization::{Actuator, Convergence, Optimizer};
 use crate::path::PathWorkspace;
 use crate::set::{CoordinateActuator, MuscleCurves, MuscleSet};
 use crate::settings::{MuscleSettings, Reserves, SolverError};
 use crate::strength::Strength;
+use ambulo_body::dynamics::BodyLoad;
+use ambulo_body::kinematics::Posture;
+use ambulo_body::model::{CoordinateId, Drive, Function, Model};
 
 /// Computes muscle forces frame after frame. Made once for a model, its muscles and settings; frames allocate nothing.
 #[derive(Debug, Clone)]
@@ -233,7 +233,7 @@ fn prepared_muscles(
 }
 
 fn couplers(model: &Model, rows: &[Option<usize>]) -> Vec<Coupler> {
-    let coupler = |(follower, coordinate): (usize, &crate::body::model::Coordinate)| match &coordinate.drive {
+    let coupler = |(follower, coordinate): (usize, &ambulo_body::model::Coordinate)| match &coordinate.drive {
         Drive::Coupled(leader, function) => {
             let row = rows[leader.index()]?;
             Some(Coupler { follower, leader: leader.index(), row, function: function.clone() })
@@ -265,7 +265,7 @@ fn motors(
         }
         Reserves::Everywhere { joints, root } => {
             let is_root = |id: CoordinateId| {
-                let moved = |body: &&crate::body::model::Body| body.joint.coordinates().contains(&id);
+                let moved = |body: &&ambulo_body::model::Body| body.joint.coordinates().contains(&id);
                 model.bodies().iter().find(moved).is_some_and(|body| body.joint.parent.is_none())
             };
             for id in model.coordinate_ids() {

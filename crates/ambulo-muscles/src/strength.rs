@@ -20,9 +20,9 @@
 //! Not handled: compliant tendons; passive force.
 //! Pinned by: tests/strength.rs
 
-use crate::body::numerics::elementary::{sin, sin_cos};
 use crate::curves::ForceCurves;
 use crate::set::{MuscleCurves, MuscleParameters};
+use ambulo_body::numerics::elementary::{sin, sin_cos};
 use serde::Deserialize;
 
 /// Least fibre length of a muscle without pennation [optimal fibre lengths], as in OpenSim.

@@ -7,12 +7,12 @@
 //! let loads = contact_loads(&model, &trajectory, &reader, BySide::from_fn(|_| condyle_distance(None)));
 //! ```
 
-use crate::body::dynamics::{LoadSeries, ReactionReader};
-use crate::body::kinematics::Trajectory;
-use crate::body::model::{BodyId, CoordinateId, Model};
 use crate::set::MuscleSet;
 use crate::settings::{MuscleSettings, SolverError};
 use crate::solver::{FrameValues, MuscleSolver};
+use ambulo_body::dynamics::{LoadSeries, ReactionReader};
+use ambulo_body::kinematics::Trajectory;
+use ambulo_body::model::{BodyId, CoordinateId, Model};
 use std::collections::BTreeSet;
 
 /// An unmet force above this share of the required one (or of 1 N.m) is reported.

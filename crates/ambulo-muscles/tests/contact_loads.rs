@@ -5,7 +5,7 @@ use crate::walks::Walk;
 use ambulo_body::dynamics::{LoadSeries, ReactionReader};
 use ambulo_body::model::{BySide, Side};
 use ambulo_body::spatial::{Vec3, Wrench};
-use ambulo_muscles::contact_loads::{condyle_distance, contact_loads, stance_load};
+use ambulo_muscles::contact_loads::{condyle_distance, contact_loads};
 use ambulo_muscles::path::PathWorkspace;
 use ambulo_muscles::settings::MuscleSettings;
 use ambulo_muscles::trial::solve_trial;
@@ -124,14 +124,14 @@ fn legs_carry_what_their_joints_carry() {
                 .map(|joint| joint.in_child.iter().fold(0.0_f64, |m, w| m.max(w.force.norm())) / walk.body_weight)
                 .collect();
             let compression: Vec<f64> = leg.joints[1].in_joint.iter().map(|load| -load.force.y).collect();
-            let most = |values: &[f64]| stance_load(values, 0..frames, 0.01, walk.body_weight).unwrap();
+            let most = |values: &[f64]| values.iter().fold(f64::MIN, |most, value| most.max(*value)) / walk.body_weight;
             println!(
                 "{name} {side:?}: hip {:.2}, knee {:.2}, ankle {:.2} BW; knee medial {:.2}, lateral {:.2} BW",
                 sizes[0],
                 sizes[1],
                 sizes[2],
-                most(&leg.knee.medial).peak_bw,
-                most(&leg.knee.lateral).peak_bw
+                most(&leg.knee.medial),
+                most(&leg.knee.lateral)
             );
             for (frame, whole) in compression.iter().enumerate() {
                 let sum = leg.knee.medial[frame] + leg.knee.lateral[frame];
@@ -141,7 +141,7 @@ fn legs_carry_what_their_joints_carry() {
                 assert!((a - b).abs() < 1e-9 * walk.body_weight, "{a} {b}");
             }
             // In single support the medial side carries more than half.
-            let at = most(&compression).peak_frame;
+            let at = (0..frames).max_by(|a, b| compression[*a].total_cmp(&compression[*b])).unwrap();
             assert!(leg.knee.medial[at] > leg.knee.lateral[at], "{name} {side:?}");
         }
         // The published range of hip, knee and ankle loads by such models; OpenSim's own are in the README of the data.
@@ -153,13 +153,6 @@ fn legs_carry_what_their_joints_carry() {
 }
 
 #[test]
-fn peaks_and_impulses_are_those_of_the_stance() {
-    let load = [0.0, 100.0, 300.0, 200.0, 0.0, 900.0];
-    let found = stance_load(&load, 1..4, 0.5, 100.0).unwrap();
-    assert_eq!(found.peak_frame, 2);
-    assert!((found.peak_bw - 3.0).abs() < 1e-15);
-    // Trapezoids: (100 + 300)/2 and (300 + 200)/2 N, each for .5 s.
-    assert!((found.impulse_bw_s - 2.25).abs() < 1e-15);
-    assert!(stance_load(&load, 3..9, 0.5, 100.0).is_none() && stance_load(&load, 2..2, 0.5, 100.0).is_none());
+fn condyles_are_apart_in_proportion_to_the_knee() {
     assert!((condyle_distance(Some(0.099)) - 0.044).abs() < 1e-15 && (condyle_distance(None) - 0.04).abs() < 1e-15);
 }

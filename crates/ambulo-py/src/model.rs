@@ -310,7 +310,8 @@ impl Model {
     ///
     /// Notes
     /// -----
-    /// The problem of OpenSim's static optimisation, solved exactly; motors of 1 N.m at joints and 1000 at the root. Method: docs/MUSCLES.md.
+    /// The problem of OpenSim's static optimisation, solved exactly; motors of 1 N.m at joints and 1000 at the root.
+    /// Method: docs/MUSCLES.md.
     #[pyo3(signature = (q, qd, moments, exponent=None, wraps="exact"))]
     fn static_optimization<'py>(
         &self,

@@ -6,6 +6,7 @@ mod cycle_table;
 mod file_names;
 mod files;
 mod folder;
+mod force_unit;
 mod keep;
 mod muscle_summary;
 mod muscle_tables;
@@ -39,8 +40,11 @@ pub use file_names::{
 };
 pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
+pub use force_unit::ForceUnit;
 pub use keep::Keep;
-pub use muscle_summary::{EmgSummary, MuscleOrigin, MuscleSummary, ReserveSummary};
+#[doc(hidden)]
+pub use muscle_summary::{EmgSummary, ReserveSummary};
+pub use muscle_summary::{MuscleOrigin, MuscleSummary};
 pub use outcome::outcome_tables;
 pub use prediction_files::deviation_columns;
 #[cfg(feature = "schema")]
@@ -58,8 +62,8 @@ pub use subject_summary::{
     PlateContactSummary, PlateCornersSummary, RegionSummary, SegmentSummary, SubjectSummary,
 };
 pub use summary::{
-    FilterKind, FilterSummary, Filters, ForceUnit, Ground, GroundOrigin, Input, MeasuredShare, PeakSummary,
-    ResidualSummary, Summary, outcome_summary,
+    FilterKind, FilterSummary, Filters, Ground, GroundOrigin, Input, MeasuredShare, PeakSummary, ResidualSummary,
+    Summary, outcome_summary,
 };
 pub use tables::ground_columns;
 pub use timings::Timings;

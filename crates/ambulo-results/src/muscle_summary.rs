@@ -1,6 +1,6 @@
 //! `muscles` of `summary.json`: reserves, loads of the joints, electromyograms.
 
-use crate::ForceUnit;
+use crate::force_unit::ForceUnit;
 use crate::walking_summary::{QuantitySummary, stance_summary};
 use ambulo::model::{CoordinateKind, Side};
 use ambulo::study::{MuscleOutcome, Outcome};

@@ -1,6 +1,7 @@
 //! `summary.json` of a simulated scene (docs/OUTPUTS.md).
 
-use crate::summary::{ForceUnit, PeakSummary};
+use crate::force_unit::ForceUnit;
+use crate::summary::PeakSummary;
 use ambulo::findings::{Finding, Findings};
 use ambulo::simulation::SceneVerdict;
 use ambulo::simulation::scene::{IntegratorReason, RunStatistics, Scene, SceneFrame};

@@ -2,6 +2,7 @@
 
 use crate::consistency_summary::ConsistencySummary;
 use crate::convention::ConventionSummary;
+use crate::force_unit::ForceUnit;
 use crate::muscle_summary::{MuscleSummary, muscle_summary};
 use crate::subject_summary::SubjectSummary;
 use crate::tables::UNLOADED_N;
@@ -297,34 +298,6 @@ pub struct PeakSummary {
     pub min_at_s: f64,
 }
 
-/// Unit of a generalised force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum ForceUnit {
-    /// For moments of rotations.
-    #[serde(rename = "N.m")]
-    NewtonMetre,
-    /// For forces along translations.
-    #[serde(rename = "N")]
-    Newton,
-}
-
-impl ForceUnit {
-    /// The unit in files.
-    #[must_use]
-    pub fn symbol(self) -> &'static str {
-        match self {
-            ForceUnit::NewtonMetre => "N.m",
-            ForceUnit::Newton => "N",
-        }
-    }
-
-    /// Newton metres if the coordinate is a rotation.
-    pub(crate) fn of_rotation(is_rotation: bool) -> ForceUnit {
-        if is_rotation { ForceUnit::NewtonMetre } else { ForceUnit::Newton }
-    }
-}
-
 /// The summary of a run. `input` names the input files; the source of the ground forces is taken from the outcome. The
 /// caller adds the synthetic walk and the convention of the angles.
 #[must_use]
@@ -449,11 +422,5 @@ impl fmt::Display for FilterKind {
 impl fmt::Display for GroundOrigin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.word())
-    }
-}
-
-impl fmt::Display for ForceUnit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.symbol())
     }
 }

@@ -32,7 +32,8 @@ pub struct WalkingSummary {
 pub struct QuantitySummary {
     /// Name: `cadence`, `step_length`.
     pub quantity: String,
-    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`, `N.m/kg`, `N.m.s/kg`, `BW`, `BW.s`.
+    /// Unit of mean and standard deviation: `steps/min`, `m`, `s`, `%`, `m/(steps/min)`, `N.m/kg`, `N.m.s/kg`, `BW`,
+    /// `BW.s`.
     pub unit: String,
     /// Strides of the right foot.
     pub right: Option<SpreadSummary>,

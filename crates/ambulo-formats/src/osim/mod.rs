@@ -19,6 +19,7 @@ mod marker_set;
 mod muscle;
 mod path;
 mod write;
+mod write_elements;
 mod write_muscles;
 
 pub use bushing::OsimBushing;

@@ -8,7 +8,7 @@ use super::muscle::{
 use super::path::{
     CYLINDER, OsimPath, OsimPathPoint, OsimPathWrap, OsimPointPlace, OsimWrapObject, OsimWrapShape, SPHERE,
 };
-use super::write::{angles, element, frame, function, group, holder, numbers, path, unknown};
+use super::write_elements::{angles, element, frame, function, group, holder, numbers, path, unknown};
 use super::{OsimFrame, OsimJoint, OsimMuscles};
 use crate::error::{Error, quoted};
 use std::collections::BTreeMap;

@@ -35,9 +35,10 @@
 //! Sources: parameters and paths: the header of the data file. Volume: Handsfield and others 2014 (unverified), as in
 //! the public script of D. Stanev with Rajagopal's rule for forces (read).
 //! Not handled: knees that slide or roll; trunk and arm muscles; volumes of children (the regression is on adults). A
-//! knee that extends beyond the range of its coordinate has too large arms of the quadriceps, because the patella stands
-//! still there.
-//! Pinned by: tests/built_in/arms.rs, tests/built_in/contact.rs, tests/built_in/persons.rs, tests/built_in/write_table.rs
+//! knee that extends beyond the range of its coordinate has too large arms of the quadriceps, because the patella
+//! stands still there.
+//! Pinned by: tests/built_in/arms.rs, tests/built_in/contact.rs, tests/built_in/persons.rs,
+//! tests/built_in/write_table.rs
 
 mod segments;
 mod table;
@@ -112,8 +113,8 @@ pub enum BuiltInError {
 /// A model without two legs, or without hinges at the knees: see [`BuiltInError`].
 ///
 /// ```
-/// use ambulo_muscles::body::model::anthropometry::{Build, SegmentTable};
-/// use ambulo_muscles::body::model::full_body::full_body;
+/// use ambulo_body::model::anthropometry::{Build, SegmentTable};
+/// use ambulo_body::model::full_body::full_body;
 /// use ambulo_muscles::built_in;
 ///
 /// let person = full_body(&Build { table: SegmentTable::DeLevaFemale, mass: 58.0, height: 1.66, toe_joint: true })?;

@@ -24,8 +24,8 @@
 //! Pinned by: tests/curves.rs
 
 use super::CurveError;
-use crate::body::numerics::elementary::exp;
 use crate::set::ThelenCurves;
+use ambulo_body::numerics::elementary::exp;
 
 pub(crate) fn check(curves: &ThelenCurves) -> Result<(), CurveError> {
     let ThelenCurves { fiber_strain_at_max, active_shape, passive_shape, velocity_shape, lengthening_force, .. } =

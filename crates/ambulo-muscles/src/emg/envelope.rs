@@ -6,8 +6,8 @@
 //! 1/(1 + r^(2n)) with r = tan(π f T)/tan(π a T), so x - L_a(x) has r^(2n)/(1 + r^(2n)): exactly the zero-phase
 //! Butterworth high-pass of the same order and cut-off. There is no other filter here.
 //!
-//! Each recorded stretch is filtered alone. It is extended at its ends by its mirror image, xₖ = x₋ₖ: the odd reflection
-//! of motions would turn the level of a rectified signal about its first sample, which is a random number.
+//! Each recorded stretch is filtered alone. It is extended at its ends by its mirror image, xₖ = x₋ₖ: the odd
+//! reflection of motions would turn the level of a rectified signal about its first sample, which is a random number.
 //!
 //! | code | symbol | unit | |
 //! |---|---|---|---|
@@ -21,39 +21,18 @@
 //! Pinned by: tests/emg_signals.rs, tests/emg_recordings.rs
 
 use super::recorded::{centred, inside, numbers, percentile, recorded};
+use super::settings::EmgSettings;
 use super::signal::{before_filter, is_envelope, of_envelope, of_raw};
 use super::{AnatomicalMuscle, EmgChannel, EmgError, EmgRecording, EmgSignal, Processing};
 use ambulo_body::model::Side;
 use ambulo_body::motion::TimeGrid;
 use ambulo_body::motion::filter::{FilterError, LowPass, MAX_ORDER, low_pass_unpadded};
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Percentile by which envelopes are divided.
 const LEVEL: f64 = 0.99;
 /// Length of the mirror images at the ends [s]; the slowest filter forgets in less.
 const EXTENSION_S: f64 = 1.0;
-
-/// Settings of the filters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-pub struct EmgSettings {
-    /// Lower and upper bound of the band-pass [Hz].
-    pub band_hz: [f64; 2],
-    /// Number of poles of one pass of the band-pass at each bound.
-    pub band_order: usize,
-    /// Cut-off of the low-pass after rectification [Hz].
-    pub envelope_hz: f64,
-    /// Number of poles of one pass of this low-pass: 2, so that both passes have four.
-    pub envelope_order: usize,
-}
-
-impl Default for EmgSettings {
-    fn default() -> Self {
-        EmgSettings { band_hz: [20.0, 450.0], band_order: 4, envelope_hz: 6.0, envelope_order: 2 }
-    }
-}
 
 /// The envelopes of one trial.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,6 +10,7 @@
 //!
 //! What a channel or a muscle of a model is called: [`AnatomicalMuscle`]. Arrays in, arrays out.
 
+mod anatomical;
 mod comparison;
 mod cycle;
 mod envelope;
@@ -17,15 +18,21 @@ mod muscle;
 mod normal_timing;
 mod recorded;
 mod recording;
+mod settings;
 mod signal;
 mod spellings;
 
+pub use anatomical::AnatomicalMuscle;
 pub use comparison::{EmgComparison, compare};
-pub use cycle::{CYCLE_SAMPLES, OnOffSettings, bursts, on_off};
-pub use envelope::{EmgEnvelope, EmgSettings, EmgTrial, envelopes};
-pub use muscle::AnatomicalMuscle;
+#[doc(hidden)]
+pub use cycle::OnOffSettings;
+pub use cycle::{CYCLE_SAMPLES, bursts, on_off};
+pub use envelope::{EmgEnvelope, EmgTrial, envelopes};
 pub use normal_timing::{NormalTiming, normal_timing};
-pub use recording::{EmgChannel, EmgRecording, emg_from_c3d, emg_from_table};
+#[doc(hidden)]
+pub use recording::EmgChannel;
+pub use recording::{EmgRecording, emg_from_c3d, emg_from_table};
+pub use settings::EmgSettings;
 pub use signal::{EmgSignal, Processing};
 #[doc(hidden)]
 pub use spellings::{SPELLINGS, Spelling};

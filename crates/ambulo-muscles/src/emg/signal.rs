@@ -21,8 +21,8 @@
 //!
 //! Pinned by: tests/emg_signals.rs, tests/emg_recordings.rs
 
-use super::EmgSettings;
 use super::recorded::{centred, inside, percentile};
+use super::settings::EmgSettings;
 use ambulo_body::motion::filter::{FilterError, LowPass, low_pass};
 use ambulo_body::numerics::elementary::asin;
 use ambulo_body::numerics::{extremes, rms};

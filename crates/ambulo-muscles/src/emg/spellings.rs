@@ -5,7 +5,7 @@
 //!
 //! Not in the table, because its meaning is not stated where it was seen: `Spare`, `Pin 1`, `EMG1`.
 
-use super::AnatomicalMuscle as M;
+use super::anatomical::AnatomicalMuscle as M;
 use ambulo_body::model::Side;
 
 /// One way to write the name of a muscle.

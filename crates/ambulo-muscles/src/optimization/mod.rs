@@ -34,7 +34,7 @@ mod columns;
 mod factor;
 mod line;
 
-use crate::body::numerics::elementary::powf;
+use ambulo_body::numerics::elementary::powf;
 use columns::Columns;
 use factor::Factor;
 

@@ -17,7 +17,8 @@
 //! Not handled: a wrap of whose range all points are switched off; OpenSim then leaves out all later wraps too.
 //! Pinned by: tests/wrap_models.rs.
 
-use super::{Arc, Contact, Passage, PathAnchor, PathNode, PathSurface, opensim_cylinder};
+use super::opensim_cylinder::{self, Verdict};
+use super::{Contact, Passage, PathAnchor, PathNode, PathSurface};
 use crate::set::WrapShape;
 use ambulo_body::spatial::Vec3;
 
@@ -25,19 +26,6 @@ use ambulo_body::spatial::Vec3;
 const MOST_SWEEPS: usize = 8;
 /// A change of length that ends the sweeps [m].
 const SETTLED_M: f64 = 0.0005;
-
-/// What OpenSim finds for one straight part and one surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Verdict {
-    /// The part stays straight.
-    Straight,
-    /// An end lies inside.
-    Inside,
-    /// The part could run over the surface.
-    Possible(Arc),
-    /// The straight part would run through the surface.
-    Mandatory(Arc),
-}
 
 /// The places at which both ends of each surface's arc were first asked for [m].
 pub(super) type FirstPlaces = Vec<[Option<Vec3>; 2]>;

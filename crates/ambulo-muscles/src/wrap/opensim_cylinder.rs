@@ -17,7 +17,6 @@
 //! Pinned by: tests/wrap_opensim.rs, tests/wrap_models.rs.
 
 use super::Arc;
-use super::opensim::Verdict;
 use crate::set::Quadrant;
 use ambulo_body::numerics::elementary::{acos, atan2, cos, hypot, sin};
 use ambulo_body::spatial::Vec3;
@@ -37,6 +36,19 @@ const PARALLEL: f64 = 2e-13;
 const LEAST_NORMAL: f64 = 1e-5 / 20.0;
 /// The plane moves a tangent point no further than this [m].
 const FURTHEST_M: f64 = 10.0;
+
+/// What OpenSim finds for one straight part and one surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Verdict {
+    /// The part stays straight.
+    Straight,
+    /// An end lies inside.
+    Inside,
+    /// The part could run over the surface.
+    Possible(Arc),
+    /// The straight part would run through the surface.
+    Mandatory(Arc),
+}
 
 /// What OpenSim does with the straight part from `a` to `b`, in the axes of a cylinder of this radius and length;
 /// `several`: whether the path has several wraps.

@@ -189,8 +189,8 @@ fn muscles_of_every_size_act_as_their_names_say() {
     }
 }
 
-/// A planar figure has two legs with hinges, without rotations of the hips. Without toe joint, points of the toes belong
-/// to the foot, and the ball of the foot is where it is on the reference.
+/// A planar figure has two legs with hinges, without rotations of the hips. Without toe joint, points of the toes
+/// belong to the foot, and the ball of the foot is where it is on the reference.
 #[test]
 fn a_planar_figure_without_toe_joints_has_the_muscles_too() {
     let human = Build { toe_joint: false, ..ADULT }.human().unwrap();

@@ -1,9 +1,9 @@
 //! The table of the muscles of a leg, from Gait2392.
 //!
 //! Points of Gait2392 are moved from the frames of its bones to segment frames that joint centres define. Its knee
-//! rolls and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given from
-//! the hinge that fits the published knee best over its whole flexion: the points a of the thigh and b of the shank with
-//! the least Σ |t(θ) + R(θ) b - a|², one degree apart.
+//! rolls and slides in the sagittal plane; the built-in body has a hinge. Points of thigh and shank are therefore given
+//! from the hinge that fits the published knee best over its whole flexion: the points a of the thigh and b of the
+//! shank with the least Σ |t(θ) + R(θ) b - a|², one degree apart.
 
 use crate::shared_data;
 use ambulo_body::findings::Findings;

@@ -31,6 +31,8 @@ mod laboratory_file;
 pub(crate) mod mass;
 mod measured;
 mod misfits;
+mod muscle_outcome;
+mod muscle_request;
 mod muscles;
 mod not_measured;
 mod observation;
@@ -67,7 +69,9 @@ pub use laboratory_file::{LaboratoryFile, LaboratoryFileError, standing_trial};
 #[doc(hidden)]
 pub use mass::MassEstimate;
 pub use mass::{BodyMass, MassState, MassWitness};
-pub use muscles::{ModelMuscles, MuscleOutcome, MuscleRequest, MuscleSource};
+pub use muscle_outcome::MuscleOutcome;
+#[doc(hidden)]
+pub use muscle_request::{ModelMuscles, MuscleRequest, MuscleSource};
 pub use opensim_setup::exclude_bushings;
 pub(crate) use opensim_setup::{TrackedTasks, report_forces_of_model, scaling_of_setup, standing_sensors_of};
 pub use origin::{ForceOrigin, TrackedMarkers, Tracking};

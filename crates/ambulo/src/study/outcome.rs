@@ -1,7 +1,7 @@
 //! The results of a study.
 
 use super::mass::BodyMass;
-use super::muscles::MuscleOutcome;
+use super::muscle_outcome::MuscleOutcome;
 use super::origin::{ForceOrigin, Tracking};
 use super::quality::Quality;
 use crate::analysis::activity::Activity;

@@ -6,6 +6,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::measured::{Measured, StanceLoads, measured};
 use super::misfits;
+use super::muscles::solved;
 use super::not_measured::not_measured;
 use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
@@ -132,7 +133,7 @@ fn road(
         force_origin,
     };
     let mut outcome = computed.judged(settings, findings);
-    outcome.muscles = muscles.map(|request| request.solve(&outcome, findings)).transpose()?;
+    outcome.muscles = muscles.map(|request| solved(request, &outcome, findings)).transpose()?;
     report_sliding(&outcome, settings, findings);
     progress.end(Stage::Feasibility)?;
     Ok(outcome)

@@ -2,7 +2,7 @@
 
 use super::error::StudyError;
 use super::laboratory_file::LaboratoryFile;
-use super::muscles::MuscleRequest;
+use super::muscle_request::MuscleRequest;
 use super::size::StatedSize;
 use super::standing_trial::StandingTrial;
 use crate::analysis::feasibility::Person;

@@ -65,8 +65,8 @@ pub struct LegJointAxes {
     pub body: BodyId,
     /// +1 if the wrench of the parent on this body acts on the distal segment, -1 in a tree whose root is the foot.
     pub on_distal: f64,
-    /// Forward, up and to the right in the world: axes e₂, e₃ and e₁ of the joint coordinate system. A leg that moves in
-    /// the sagittal plane only has the axes of the neutral posture, fixed in the distal segment.
+    /// Forward, up and to the right in the world: axes e₂, e₃ and e₁ of the joint coordinate system. A leg that moves
+    /// in the sagittal plane only has the axes of the neutral posture, fixed in the distal segment.
     pub axes: [Vec3; 3],
 }
 

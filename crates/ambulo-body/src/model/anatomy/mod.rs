@@ -222,7 +222,8 @@ impl Anatomy {
 }
 
 impl Model {
-    /// A joint of a leg and its axes, for the rotations `world_from_body` of the bodies. `None` if there is no such leg.
+    /// A joint of a leg and its axes, for the rotations `world_from_body` of the bodies. `None` if there is no such
+    /// leg.
     #[must_use]
     pub fn leg_joint(&self, joint: LegJoint, side: Side, rotation: impl Fn(BodyId) -> Mat3) -> Option<LegJointAxes> {
         let anatomy = self.anatomy();

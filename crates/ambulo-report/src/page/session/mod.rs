@@ -17,6 +17,7 @@ mod missing;
 mod muscles;
 pub(crate) mod pace;
 mod peaks;
+mod plain_fact;
 mod quality;
 mod results;
 mod scene;

@@ -2,7 +2,7 @@
 
 use crate::page::contract::{Judged, Table};
 use crate::page::session::cells::{Column, listed, number, text};
-use crate::page::session::quality::plain;
+use crate::page::session::plain_fact::plain;
 use crate::page::session::results::Results;
 use ambulo::model::Region;
 

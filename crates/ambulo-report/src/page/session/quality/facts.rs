@@ -2,6 +2,7 @@
 
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::muscles;
+use crate::page::session::plain_fact::plain;
 use crate::page::session::results::Results;
 use ambulo::analysis::{LEAST_MARKER_SHARE, PredictionCheck};
 use ambulo::model::Region;
@@ -41,11 +42,6 @@ pub(super) fn facts(results: &Results) -> Vec<Judged> {
     facts.extend(walk.iter().flat_map(of_walk));
     facts.extend(muscles::facts(results));
     facts
-}
-
-/// A number without a limit.
-pub(in crate::page::session) fn plain(label: &str, value: String) -> Judged {
-    Judged { label: label.to_owned(), value, allowed: None, good: None }
 }
 
 fn residual(results: &Results, size: &ResidualSummary) -> Vec<Judged> {

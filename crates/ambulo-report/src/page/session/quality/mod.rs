@@ -6,7 +6,7 @@ mod ground_points;
 mod residual;
 mod tables;
 
-pub(super) use facts::{none_allowed, plain};
+pub(super) use facts::none_allowed;
 
 use super::muscles;
 use super::results::Results;
