@@ -115,8 +115,8 @@ fn page(judged: &[Judged], not_judged: &[(Recording, NotJudged)]) -> String {
          ## The same, by laboratory\n\n{}\n\
          ## People of the fit\n\n{}\n\
          ## Bandwidth of the recorded markers\n\n\
-         The frequency below which 99 % of the acceleration of the fastest markers lies, median over the fastest \
-         quarter \
+         The frequency below which 99 % of the acceleration of the fastest markers lies, median over the \
+         fastest quarter \
          of them. Raw markers have a noise floor up to half of the frame rate; where it is missing, the markers were \
          low-passed before publication.\n\n{}\n\
          ## Running: the prediction and Newton's law alone\n\n{}\n\
