@@ -1,5 +1,7 @@
 //! Activations compared with EMG: which muscles belong together, and the delay.
 
+#![allow(clippy::single_range_in_vec_init, reason = "one stretch of samples, or one burst")]
+
 use ambulo_body::model::Side;
 use ambulo_body::motion::TimeGrid;
 use ambulo_muscles::emg::{AnatomicalMuscle as M, EmgEnvelope, EmgSignal, Processing, compare};

@@ -1,5 +1,7 @@
 //! Cycles of envelopes, and when a muscle is on.
 
+#![allow(clippy::single_range_in_vec_init, reason = "one stretch of samples, or one burst")]
+
 use ambulo_body::motion::TimeGrid;
 use ambulo_muscles::emg::{
     AnatomicalMuscle, CYCLE_SAMPLES, EmgEnvelope, EmgSignal, OnOffSettings, Processing, bursts, on_off,

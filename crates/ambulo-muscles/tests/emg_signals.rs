@@ -1,5 +1,7 @@
 //! Envelopes of signals that were made: their level, their band, and what is recognised in them.
 
+#![allow(clippy::single_range_in_vec_init, reason = "one stretch of samples, or one burst")]
+
 use ambulo_body::findings::Findings;
 use ambulo_body::motion::TimeGrid;
 use ambulo_body::numerics::{Random, correlation, rms};

@@ -1,15 +1,19 @@
-"""Run OpenSim's static optimization on two public recordings with EMG and record how well its activations agree with the EMG.
+"""Run OpenSim's static optimization on two public recordings with EMG and record how well its activations agree.
 
     python opensim_emg.py DATA [CASE...]
 
-DATA is the folder `muscles` of the recordings; cases are `stanford`, `walk36`, `walk45`, `run81` (default: all). For each case the correlation r of
-every recorded muscle with the activation of the same muscle of the model over the frames of the window, without a delay and with one of 0.1 s, is written to
-`crates/ambulo-muscles/tests/testdata/emg_opensim.csv`; the rows of other cases stay. No curve is kept. Requires `pip install opensim numpy`; recorded
-with OpenSim 4.6. `cargo test -p ambulo-muscles emg_against_opensim` compares with it.
+DATA is the folder `muscles` of the recordings; cases are `stanford`, `walk36`, `walk45`, `run81` (default: all). For
+each case the correlation r of every recorded muscle with the activation of the same muscle of the model over the
+frames of the window, without a delay and with one of 0.1 s, is written to
+`crates/ambulo-muscles/tests/testdata/emg_opensim.csv`; the rows of other cases stay. No curve is kept. Requires
+`pip install opensim numpy`; recorded with OpenSim 4.6. `cargo test -p ambulo-muscles emg_against_opensim` compares
+with it.
 
-Coordinates: 6 Hz. Reserves: 1 N.m, 1000 N.m or N at the pelvis, none where the model has a motor. Criterion 1e-4, 100 iterations: OpenSim's defaults.
-The mass of the model of CEINMS is not that of the person: all masses and inertias are multiplied by 58.03/75.16 (README of the data).
-Each OpenSim tool runs in a process of its own, because a second one in the same process may crash.
+Coordinates: 6 Hz. Reserves: 1 N.m, 1000 N.m or N at the pelvis, none where the model has a motor. Criterion 1e-4, 100
+iterations: OpenSim's defaults. The mass of the model of CEINMS is not that of the person: all masses and inertias are
+multiplied by 58.03/75.16 (README of the data). The windows begin where OpenSim finds an equilibrium of all muscles,
+which its tool needs although static optimization does not. Each OpenSim tool runs in a process of its own, because a
+second one in the same process may crash.
 """
 
 from __future__ import annotations
@@ -23,10 +27,12 @@ from pathlib import Path
 
 OUT = Path(__file__).parents[3] / "crates/ambulo-muscles/tests/testdata/emg_opensim.csv"
 HEADER = ["case", "from_s", "to_s", "delay_s", "source", "muscle", "frames", "r"]
+#: Columns of a storage file by name.
+Columns = dict[str, list[float]]
 #: How much later than EMG the activation is expected [s].
 DELAYS = (0.0, 0.1)
 STANFORD, CEINMS = "A-stanford-matlabso", "B-ceinms-lowerlimb"
-#: Model, coordinates, forces, EMG, window [s], factor of all masses, prefixes of the forces on the right and the left foot.
+#: Model, coordinates, forces, EMG, window [s], factor of all masses, prefixes of the forces on the right and left foot.
 CASES = {
     "stanford": (
         f"{STANFORD}/Rajagopal_scaled_Sub1_gasAvoid.osim",
@@ -50,7 +56,7 @@ CASES = {
         for name, window in {"walk36": (12.4, 14.8), "walk45": (12.0, 15.3), "run81": (29.5, 31.5)}.items()
     },
 }
-#: The published static optimization of the first recording, with elastic tendons and passive forces, and its window [s].
+#: The published static optimization of the first recording (elastic tendons, passive forces), and its window [s].
 PUBLISHED = (f"{STANFORD}/results_SO/results_states.sto", (10.9, 11.7))
 
 
@@ -102,15 +108,19 @@ def optimize(coordinates: str, first: str, last: str) -> None:
     import opensim
 
     setup = f"""<OpenSimDocument Version="40000"><AnalyzeTool name="so"><model_file>model.osim</model_file>
-<replace_force_set>false</replace_force_set><force_set_files>reserves.xml</force_set_files><results_directory>out</results_directory>
+<replace_force_set>false</replace_force_set><force_set_files>reserves.xml</force_set_files>
+<results_directory>out</results_directory>
 <output_precision>12</output_precision><initial_time>{first}</initial_time><final_time>{last}</final_time>
 <solve_for_equilibrium_for_auxiliary_states>false</solve_for_equilibrium_for_auxiliary_states>
-<AnalysisSet><objects><StaticOptimization name="StaticOptimization"><on>true</on><start_time>{first}</start_time><end_time>{last}</end_time>
-<step_interval>1</step_interval><use_model_force_set>true</use_model_force_set><activation_exponent>2</activation_exponent>
-<use_muscle_physiology>true</use_muscle_physiology><optimizer_convergence_criterion>1e-4</optimizer_convergence_criterion>
+<AnalysisSet><objects><StaticOptimization name="StaticOptimization"><on>true</on>
+<start_time>{first}</start_time><end_time>{last}</end_time><step_interval>1</step_interval>
+<use_model_force_set>true</use_model_force_set><activation_exponent>2</activation_exponent>
+<use_muscle_physiology>true</use_muscle_physiology>
+<optimizer_convergence_criterion>1e-4</optimizer_convergence_criterion>
 <optimizer_max_iterations>100</optimizer_max_iterations></StaticOptimization></objects></AnalysisSet>
 <external_loads_file>loads.xml</external_loads_file><coordinates_file>{coordinates}</coordinates_file>
-<lowpass_cutoff_frequency_for_coordinates>6</lowpass_cutoff_frequency_for_coordinates></AnalyzeTool></OpenSimDocument>"""
+<lowpass_cutoff_frequency_for_coordinates>6</lowpass_cutoff_frequency_for_coordinates>
+</AnalyzeTool></OpenSimDocument>"""
     Path("setup.xml").write_text(setup)
     opensim.Logger.setLevelString("error")
     if not opensim.AnalyzeTool("setup.xml").run():
@@ -119,15 +129,17 @@ def optimize(coordinates: str, first: str, last: str) -> None:
     os._exit(0)  # the tool may crash while it is destroyed
 
 
-def storage(path: Path) -> dict[str, list[float]]:
+def storage(path: Path) -> Columns:
     """Return the columns of a storage file."""
     lines = path.read_text().split("endheader", 1)[1].strip().splitlines()
     rows = [[float(cell) for cell in line.split()] for line in lines[1:] if line.strip()]
     return dict(zip(lines[0].split(), map(list, zip(*rows))))
 
 
-def compared(emg: dict[str, list[float]], activations: dict[str, list[float]], window: tuple[float, float], delay: float) -> list[tuple[str, int, float]]:
-    """Return muscle, number of frames and r for every column of EMG, at the times of the activations within the window, EMG earlier by a delay."""
+def compared(
+    emg: Columns, activations: Columns, window: tuple[float, float], delay: float
+) -> list[tuple[str, int, float]]:
+    """Return muscle, frames and r of every column of EMG, at the frames within the window, EMG earlier by a delay."""
     import numpy
 
     times = numpy.array(activations["time"])
@@ -135,7 +147,8 @@ def compared(emg: dict[str, list[float]], activations: dict[str, list[float]], w
     found = []
     for column in list(emg)[1:]:
         muscle = column.removesuffix("_activation")
-        values = next(values for name, values in activations.items() if name in (muscle, f"{muscle}.activation", f"/forceset/{muscle}/activation"))
+        names = (muscle, f"/forceset/{muscle}/activation")
+        values = next(values for name, values in activations.items() if name in names)
         recorded = numpy.interp(times[inside] - delay, emg["time"], emg[column])
         r = numpy.corrcoef(recorded, numpy.array(values)[inside])[0, 1]
         found.append((column, int(inside.sum()), float(r)))
