@@ -11,23 +11,23 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The part that is analysed [s]; filters at 6 Hz and events need a second around it.
-const PART: [f64; 2] = [3.3, 3.7];
+const PART: [f64; 2] = [2.3, 3.0];
 /// Differences of values, rates and accelerations [rad, rad/s, rad/s²; m]: the filter leaves e⁻¹⁸ of what the ends of
 /// the fitted time change, a tenth of a radian; each derivative multiplies it by the cutoff of 38 rad/s.
 const SAME: [f64; 3] = [1e-7, 1e-5, 1e-3];
 
 fn walk(data: &Path, window: Window) -> Outcome {
     let read = |name: &str| {
-        let bytes = std::fs::read(data.join("motonms-unipd").join(name)).unwrap();
+        let bytes = std::fs::read(data.join("biomechzoo-HC030A").join(name)).unwrap();
         LaboratoryFile::from_c3d(bytes, name, &mut Findings::default()).unwrap()
     };
     let source = Source::markers(MarkerSource {
-        trial: read("Walking1.c3d"),
-        standing: Some(Arc::new(StandingTrial::new(read("Static1.c3d")))),
+        trial: read("HC030A22.c3d"),
+        standing: Some(Arc::new(StandingTrial::new(read("HC030A01.c3d")))),
         body: MarkerBody::BuiltIn {
             table: SegmentTable::DeLevaMale,
-            mass_kg: Some(82.6),
-            height_m: Some(1.75),
+            mass_kg: Some(45.8),
+            height_m: Some(1.48),
             set: None,
         },
         plates: Vec::new(),

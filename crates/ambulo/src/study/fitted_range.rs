@@ -2,10 +2,12 @@
 //!
 //! Filters and the events of the feet reach beyond the range that is asked for. The slowest pole of a third-order
 //! Butterworth filter of cutoff f decays with π f, to e⁻¹⁸ after 6/f; of higher orders it decays to e⁻¹⁰ or less.
-//! Frames further away do not change the results beyond rounding and the tolerance of the fit, except for what is
-//! judged over all fitted frames: distances of the markers from the body, and what is found to be exchanged or
-//! displaced. The body and its mass are always those of the whole recording, or of the standing trial, and a prediction
-//! without plates uses all of the motion.
+//! Frames further away do not change the results beyond rounding and the tolerance of the fit, with these exceptions:
+//! gaps of markers are filled by how the markers slide in all fitted frames (hundredths of a degree), stances without a
+//! measured load are predicted from the fitted time (thousandths of N.m/kg), and distances of the markers from the
+//! body, and what is found to be exchanged or displaced, are those of the fitted frames. The body and its mass are
+//! always those of the whole recording, or of the standing trial, and a prediction without plates uses all of the
+//! motion.
 //!
 //! Pinned by: tests/fitted_range.rs
 
