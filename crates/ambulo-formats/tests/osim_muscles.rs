@@ -89,7 +89,7 @@ fn both_layouts_give_the_same_muscles() {
     assert_eq!((ball.frame.body.as_str(), ball.frame.translation_m), ("ground", [1.0, 2.0, 3.0]));
     let [motor] = &first.actuators[..] else { panic!("{:?}", first.actuators) };
     assert_eq!((motor.coordinate.as_str(), motor.optimal_force), ("q", 50.0));
-    assert_eq!(motor.control_range, [f64::NEG_INFINITY, f64::INFINITY]);
+    assert!(motor.control_range.map(f64::is_infinite) == [true; 2] && motor.control_range[0] < 0.0);
 }
 
 #[test]

@@ -323,7 +323,7 @@ impl<'a> Names<'a> {
                     let function = osim_function::read(function).map_err(invalid)?;
                     Ok::<_, MuscleError>((name.as_ref().map(coordinate).transpose()?, function))
                 });
-                PointPlace::Moving { frame, axes: [x?, y?, z?] }
+                PointPlace::Moving { frame, axes: Box::new([x?, y?, z?]) }
             }
         };
         let body = self.body(&point.frame.body).ok_or_else(|| owner.unknown("body", &point.frame.body))?;

@@ -72,7 +72,7 @@ pub enum PointPlace {
         /// `body_from_frame`.
         frame: Pose,
         /// Coordinate and function of x, y and z.
-        axes: [(Option<CoordinateId>, Function); 3],
+        axes: Box<[(Option<CoordinateId>, Function); 3]>,
     },
 }
 

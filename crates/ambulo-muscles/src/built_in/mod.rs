@@ -170,7 +170,7 @@ fn path_point(name: String, row: &PointRow, leg: &Leg) -> PathPoint {
             let angle = leg.angle(*joint);
             let signs = leg.own_side(Vec3::new(1.0, 1.0, 1.0)) * frame.scale;
             let axes = [0, 1, 2].map(|k| (Some(angle.coordinate), angle.function(&spline[k], signs[k])));
-            PointPlace::Moving { frame: frame.body_from_segment, axes }
+            PointPlace::Moving { frame: frame.body_from_segment, axes: Box::new(axes) }
         }
     };
     PathPoint { name, body: Some(frame.body), place }

@@ -204,7 +204,7 @@ fn moving_points(path: &MusclePath) -> (Vec<MovingPoint>, Vec<usize>) {
 /// The coordinates of the joints of these bodies and of gears, each replaced by its leader.
 fn coordinates(model: &Model, bodies: &[Option<usize>], gears: &[usize]) -> Vec<CoordinateId> {
     let of_joint = |body: &usize| model.bodies()[*body].joint.coordinates().into_iter().map(CoordinateId::index);
-    let of_joints = bodies.iter().flatten().flat_map(|body| of_joint(body));
+    let of_joints = bodies.iter().flatten().flat_map(of_joint);
     let all: BTreeSet<CoordinateId> = of_joints.chain(gears.iter().copied()).map(|id| leader(model, id)).collect();
     all.into_iter().collect()
 }
