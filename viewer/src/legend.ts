@@ -54,10 +54,13 @@ function sideWords(sides: readonly PageSide[]): string {
 function overCycle({ page }: Context, panels: Panels): (Node | string)[][] {
   const curves = page.sessions.length === 1 ? "thin: each cycle, thick: mean" : "means of the cycles";
   const band = panels.citations().length > 0 ? [[areaSample(colour("band"), 1), "normative, mean ± 1 SD"]] : [];
-  const activities = page.sessions.flatMap((session) =>
+  const bySession = page.sessions.map((session) =>
     session.groups.flatMap((group) => group.panels.flatMap((panel) => panel.activity ?? [])),
   );
-  const measured = page.sessions.length === 1 && activities.some((activity) => activity.measured.length > 0);
+  const activities = bySession.flat();
+  // Where several sessions share a panel, electromyograms are left out.
+  const alone = bySession.filter((own) => own.length > 0).length === 1;
+  const measured = alone && activities.some((activity) => activity.measured.length > 0);
   const usual = activities.some((activity) => activity.usual.length > 0);
   return [
     [curves],

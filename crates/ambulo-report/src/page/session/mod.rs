@@ -104,7 +104,7 @@ fn tables(results: &Results, size: &BodySize, values: &[Extracted]) -> Vec<Table
     let summary = &results.summary;
     let mut tables = vec![time_distance::table(results, size), extracted::table(values)];
     tables.extend(knee_adduction::knee_adduction(&summary.knee_adduction_moment));
-    tables.extend(muscles::contact_table(results));
+    tables.extend(muscles::contact_table(summary.muscles.as_ref()));
     tables.push(extracted::symmetry(values, &summary.times_and_distances));
     tables.push(peaks::peaks(&summary.peaks));
     tables

@@ -7,10 +7,8 @@ use super::side_curves::{Head, SideCurve, over_the_cycle, panel, traces};
 use crate::page::block::Block;
 use crate::page::contract::{Activity, Group, Origin, Panel, Role};
 use crate::page::session::results::Results;
-use ambulo::model::{BySide, Side};
-use ambulo::numerics::correlation;
 use ambulo_formats::table::Table;
-use ambulo_results::{EMG, MUSCLES};
+use ambulo_results::{EMG, EmgSummary, MUSCLES};
 
 /// The grid; `None` without muscles of known names.
 pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
@@ -37,8 +35,8 @@ fn note(results: &Results) -> String {
         String::new()
     } else {
         format!(
-            " Bars above: percent of the cycle in which at least half of ten adults, at their own speed, have the \
-             muscle on ({}; docs/EMG.md).",
+            " Bars above: where the electromyogram of at least half of ten adults, at their own speed, is on \
+             (Schreiber and Moissenet 2019: {}).",
             known.join(", ")
         )
     };
@@ -56,8 +54,7 @@ pub(super) fn is_shown(results: &Results) -> bool {
 }
 
 fn panel_of(results: &Results, table: &Table, group: &MuscleGroup, block: &mut Block) -> Option<Panel> {
-    let computed = group.columns(table, "_activation");
-    let curves = computed.as_ref().map(|columns| mean(columns, MUSCLES));
+    let curves = group.columns(table, "_activation").as_ref().map(|columns| mean(columns, MUSCLES));
     if curves.values().all(Option::is_none) {
         return None;
     }
@@ -67,14 +64,12 @@ fn panel_of(results: &Results, table: &Table, group: &MuscleGroup, block: &mut B
     let mut activity = Activity {
         measured: Vec::new(),
         usual: group.usual().map(|(_, times)| times).unwrap_or_default(),
-        agreement: None,
+        agreement: agreement(results, group),
     };
     if let Some(emg) = &results.emg {
-        let measured = group.columns(emg, "_emg");
-        let envelopes = measured.as_ref().map(|columns| mean(columns, EMG));
+        let envelopes = group.columns(emg, "_emg").as_ref().map(|columns| mean(columns, EMG));
         panel.traces.extend(traces(results, &envelopes, Role::Measured, block));
         activity.measured = over_the_cycle(results, &envelopes, block).1;
-        activity.agreement = agreement(group, &computed, &measured);
     }
     let nothing = activity.measured.is_empty() && activity.usual.is_empty() && activity.agreement.is_none();
     panel.activity = (!nothing).then_some(activity);
@@ -89,22 +84,16 @@ fn mean(columns: &[MuscleColumn<'_>], file: &str) -> Option<SideCurve> {
     Some(SideCurve { values: (0..values.len()).map(at).collect(), origin: (columns.len() == 1).then_some(origin) })
 }
 
-/// Correlation of each electromyogram with the mean activation of the muscles that share its fibres; `None` without
+/// Correlation of the electromyograms of the group with the activations of the same muscles; `None` without
 /// electromyograms.
-fn agreement(
-    group: &MuscleGroup,
-    computed: &BySide<Vec<MuscleColumn<'_>>>,
-    measured: &BySide<Vec<MuscleColumn<'_>>>,
-) -> Option<String> {
-    let words = |(side, (muscle, _, emg)): (Side, &MuscleColumn<'_>)| {
-        let shares = |(known, ..): &&MuscleColumn<'_>| known.shares_fibres_with(*muscle);
-        let own: Vec<MuscleColumn<'_>> = computed[side].iter().filter(shares).copied().collect();
-        let activation = mean(&own, MUSCLES)?;
-        let name = muscle.to_string();
-        let name = if name == group.title.to_lowercase() { String::new() } else { format!(" {name}") };
-        Some(format!("{side}{name} {:.2}", correlation(&activation.values, emg)))
+fn agreement(results: &Results, group: &MuscleGroup) -> Option<String> {
+    let words = |compared: &EmgSummary| {
+        let EmgSummary { muscle, side, r, .. } = compared;
+        let (side, _) = group.known(&format!("{muscle} {side}"))?;
+        let name = if *muscle == group.title.to_lowercase() { String::new() } else { format!(" {muscle}") };
+        let r = r.map_or_else(|| "-".to_owned(), |r| format!("{r:.2}"));
+        Some(format!("{side}{name} {r}"))
     };
-    let pairs = Side::BOTH.into_iter().flat_map(|side| measured[side].iter().map(move |column| (side, column)));
-    let list: Vec<String> = pairs.filter_map(words).collect();
+    let list: Vec<String> = results.summary.muscles.iter().flat_map(|found| &found.emg).filter_map(words).collect();
     (!list.is_empty()).then(|| format!("r with the electromyogram: {}", list.join(", ")))
 }

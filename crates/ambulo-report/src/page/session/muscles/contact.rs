@@ -43,8 +43,9 @@ const CONDYLES: [(&str, &str, &str); 2] =
 
 const NOTE: &str = "Force that a joint carries: the net joint reaction and the forces of the muscles, in body weights. \
     Compression is its part along the thigh (hip) or along the shank (knee, ankle); the knee's compression is divided \
-    between the condyles by the frontal moment. These are estimates of the model that agree with OpenSim's on the same \
-    data; they are not measured loads.";
+    between the condyles by the frontal moment";
+const NO_MEASUREMENT: &str = "These are estimates of the model, compared with OpenSim's on the same data \
+    (docs/MUSCLES.md); they are not measured loads.";
 
 /// The grid; `None` without loads.
 pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
@@ -57,10 +58,16 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
     (!panels.is_empty()).then(|| Group {
         id: "contact".to_owned(),
         title: "Joint contact loads".to_owned(),
-        note: Some(NOTE.to_owned()),
+        note: Some(format!("{NOTE}{}. {NO_MEASUREMENT}", condyles(results))),
         columns: 3,
         panels,
     })
+}
+
+/// The distance over which the frontal moment is divided.
+fn condyles(results: &Results) -> String {
+    let distance_m = results.summary.muscles.as_ref().and_then(|found| found.condyles_m);
+    distance_m.map_or_else(String::new, |metres| format!(" over {:.0} mm", 1e3 * metres))
 }
 
 /// All loads for which the file has columns.

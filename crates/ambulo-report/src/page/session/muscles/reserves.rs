@@ -1,10 +1,12 @@
-//! Reserves: generalised forces that the muscles could not supply, as a measure of quality.
+//! Strength as a measure of quality: muscles at their limit, and reserves, the generalised forces that the muscles could
+//! not supply.
 
 use crate::page::contract::{Judged, Table};
 use crate::page::session::cells::{Column, listed, number, text};
 use crate::page::session::plain_fact::plain;
+use crate::page::session::quality::none_allowed;
 use crate::page::session::results::Results;
-use ambulo::model::Region;
+use ambulo_results::{MuscleOrigin, MuscleSummary, ReserveSummary};
 
 /// Largest reserve of a joint in relation to its largest moment: "peak reserve actuator torques should typically be
 /// less than 10% of the peak joint torque" (OpenSim documentation, page "Reserves and Residuals").
@@ -24,8 +26,6 @@ struct Reserve {
     time_s: f64,
     /// In relation to the largest force of the coordinate; `None` without it.
     share: Option<f64>,
-    /// Whether the coordinate belongs to a leg.
-    of_leg: bool,
 }
 
 const COLUMNS: [Column<Reserve>; 5] = [
@@ -33,15 +33,43 @@ const COLUMNS: [Column<Reserve>; 5] = [
     ("Largest", |reserve| number(Some(reserve.size), 2, None)),
     ("Unit", |reserve| text(reserve.unit)),
     ("At [s]", |reserve| number(Some(reserve.time_s), 2, None)),
-    ("Of the largest moment [%]", |reserve| {
-        let limit = reserve.of_leg.then_some([f64::NEG_INFINITY, 100.0 * SHARE]);
-        number(reserve.share.map(|share| 100.0 * share), 0, limit)
-    }),
+    ("Of the largest moment [%]", |reserve| number(reserve.share.map(|share| 100.0 * share), 0, None)),
 ];
 
-/// Muscles, those without strength left, and the largest reserve of the legs.
+/// Whose muscles, those without strength left, and the largest reserve.
 pub(in crate::page::session) fn facts(results: &Results) -> Vec<Judged> {
-    let Some(table) = &results.muscles else { return Vec::new() };
+    let mut facts = results.summary.muscles.as_ref().map_or_else(Vec::new, of_summary);
+    facts.extend(full(results));
+    facts
+}
+
+fn of_summary(summary: &MuscleSummary) -> Vec<Judged> {
+    let whose = match summary.source {
+        MuscleOrigin::Model => "the model's own",
+        MuscleOrigin::BuiltIn => "the built-in set",
+    };
+    let own = plain("Muscles", format!("{}, {whose}", summary.muscles));
+    let unmet = none_allowed("Frames whose moments muscles and reserves could not give", summary.unmet_frames);
+    [own].into_iter().chain(summary.largest_reserve.as_ref().map(largest)).chain([unmet]).collect()
+}
+
+fn largest(reserve: &ReserveSummary) -> Judged {
+    let ReserveSummary { coordinate, unit, largest, at_s, share } = reserve;
+    let value = format!(
+        "{largest:.1} {} at {coordinate}, {at_s:.2} s, {:.0} % of the largest moment there",
+        unit.symbol(),
+        100.0 * share
+    );
+    Judged {
+        allowed: Some(format!("below {:.0} %", 100.0 * SHARE)),
+        good: Some(*share < SHARE),
+        ..plain("Largest reserve of the muscles", value)
+    }
+}
+
+/// Muscles that reach full activation.
+fn full(results: &Results) -> Option<Judged> {
+    let table = results.muscles.as_ref()?;
     let muscles: Vec<(&str, &[f64])> =
         table.columns().filter_map(|(name, values)| Some((name.strip_suffix("_activation")?, values))).collect();
     let is_full = |values: &[f64]| values.iter().any(|activation| *activation > FULL);
@@ -49,21 +77,7 @@ pub(in crate::page::session) fn facts(results: &Results) -> Vec<Judged> {
     let more = if full.len() > NAMED { ", ..." } else { "" };
     let names = full.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
     let list = if full.is_empty() { String::new() } else { format!(" ({names}{more})") };
-    let at_limit = format!("{} of {}{list}", full.len(), muscles.len());
-    let mut facts = vec![plain("Muscles that reach full activation", at_limit)];
-    let of_legs = reserves(results).into_iter().filter(|reserve| reserve.of_leg);
-    facts.extend(of_legs.max_by(|a, b| a.size.total_cmp(&b.size)).map(largest));
-    facts
-}
-
-fn largest(reserve: Reserve) -> Judged {
-    let Reserve { coordinate, unit, size, time_s, share, .. } = reserve;
-    let of = share.map_or_else(String::new, |share| format!(", {:.0} % of its largest moment", 100.0 * share));
-    Judged {
-        allowed: share.map(|_| format!("below {:.0} %", 100.0 * SHARE)),
-        good: share.map(|share| share < SHARE),
-        ..plain("Largest reserve of the legs", format!("{size:.1} {unit} at {coordinate}, {time_s:.2} s{of}"))
-    }
+    Some(plain("Muscles that reach full activation", format!("{} of {}{list}", full.len(), muscles.len())))
 }
 
 /// The table of all reserves, largest first; `None` without reserves.
@@ -84,14 +98,7 @@ fn reserves(results: &Results) -> Vec<Reserve> {
         let (size, time_s) = sizes.reduce(|largest, next| if next.0 > largest.0 { next } else { largest })?;
         let (force, unit) = of_coordinate(results, coordinate);
         let share = force.filter(|force| *force > 0.0).map(|force| size / force);
-        Some(Reserve {
-            coordinate: coordinate.to_owned(),
-            unit,
-            size,
-            time_s,
-            share,
-            of_leg: is_of_leg(results, coordinate),
-        })
+        Some(Reserve { coordinate: coordinate.to_owned(), unit, size, time_s, share })
     };
     columns.filter_map(of_column).collect()
 }
@@ -104,12 +111,4 @@ fn of_coordinate(results: &Results, coordinate: &str) -> (Option<f64>, &'static 
         (None, Some(force)) => (Some(largest(force)), "N"),
         (moment, _) => (moment.map(largest), "N.m"),
     }
-}
-
-fn is_of_leg(results: &Results, coordinate: &str) -> bool {
-    let Some((_, model)) = &results.body else { return false };
-    let id = model.coordinate(coordinate);
-    id.is_some_and(|id| {
-        model.anatomy().coordinate_side(id).is_some() && Region::of_coordinate(model, id) == Some(Region::Legs)
-    })
 }
