@@ -74,7 +74,8 @@ fn with_muscles() -> Files {
 /// The part of the summary: loads of the right knee, a reserve, an electromyogram.
 fn muscles_summary() -> Value {
     let load = |quantity: &str, unit: &str, mean: f64| {
-        json!({"quantity": quantity, "unit": unit, "right": {"mean": mean, "sd": 0.1, "strides": 2, "source": "measured"},
+        json!({"quantity": quantity, "unit": unit, "right": {"mean": mean, "sd": 0.1, "strides": 2,
+            "source": "measured"},
             "left": null, "both": null, "symmetry": null})
     };
     json!({"source": "built-in", "muscles": 80, "unmet_frames": 0, "condyles_m": 0.042,

@@ -9,7 +9,8 @@ use crate::muscles::set::MuscleSet;
 use crate::muscles::trial::{MuscleTrial, ReserveUse};
 use std::collections::BTreeSet;
 
-/// Motors that add more than this share of the largest moment of a coordinate are a warning: our choice.
+/// Motors that add more than this share of the largest moment of a coordinate are a warning (OpenSim's documentation,
+/// page "Reserves and Residuals").
 const LARGE_RESERVE: f64 = 0.1;
 /// Least moment that a share is taken of, in N.m for each kilogram of body mass: smaller ones are noise.
 const LEAST_MOMENT: f64 = 0.05;

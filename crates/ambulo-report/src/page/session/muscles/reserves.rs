@@ -1,10 +1,9 @@
-//! Strength as a measure of quality: muscles at their limit, and reserves, the generalised forces that the muscles could
-//! not supply.
+//! Strength as a measure of quality: muscles at their limit, and reserves, the generalised forces that the muscles
+//! could not supply.
 
 use crate::page::contract::{Judged, Table};
 use crate::page::session::cells::{Column, listed, number, text};
-use crate::page::session::plain_fact::plain;
-use crate::page::session::quality::none_allowed;
+use crate::page::session::plain_fact::{none_allowed, plain};
 use crate::page::session::results::Results;
 use ambulo_results::{MuscleOrigin, MuscleSummary, ReserveSummary};
 

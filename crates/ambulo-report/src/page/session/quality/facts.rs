@@ -2,7 +2,7 @@
 
 use crate::page::contract::{Judged, PageSource};
 use crate::page::session::muscles;
-use crate::page::session::plain_fact::plain;
+use crate::page::session::plain_fact::{none_allowed, plain};
 use crate::page::session::results::Results;
 use ambulo::analysis::{LEAST_MARKER_SHARE, PredictionCheck};
 use ambulo::model::Region;
@@ -95,11 +95,6 @@ fn markers(markers: &MarkersSummary) -> Vec<Judged> {
         ..plain("Markers that the body follows", format!("{} of {}", markers.used, markers.recorded))
     });
     all.into_iter().chain(markers.regions.iter().map(of_region)).chain(used).chain([unsettled]).collect()
-}
-
-/// A count that must be zero.
-pub(in crate::page::session) fn none_allowed(label: &str, count: usize) -> Judged {
-    Judged { allowed: Some("none".to_owned()), good: Some(count == 0), ..plain(label, count.to_string()) }
 }
 
 /// A check of a prediction; if it was not judged, the reason is shown.

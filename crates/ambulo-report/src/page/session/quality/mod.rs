@@ -6,8 +6,6 @@ mod ground_points;
 mod residual;
 mod tables;
 
-pub(super) use facts::none_allowed;
-
 use super::muscles;
 use super::results::Results;
 use crate::clinical::ClinicalQuantity;

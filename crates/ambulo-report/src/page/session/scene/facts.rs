@@ -2,8 +2,7 @@
 
 use crate::page::contract::{Fact, Judged};
 use crate::page::session::header::{fact, file_name};
-use crate::page::session::plain_fact::plain;
-use crate::page::session::quality::none_allowed;
+use crate::page::session::plain_fact::{none_allowed, plain};
 use ambulo_results::{SceneSummary, WorldSummary};
 
 /// Lines of the header.
