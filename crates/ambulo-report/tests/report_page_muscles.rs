@@ -210,7 +210,7 @@ fn missing_and_malformed_files_of_muscles_are_reported() {
     let short = Table::new("short", vec![("time".to_owned(), vec![0.0, 0.01]), ("a".to_owned(), vec![1.0, 2.0])]);
     files.insert("muscles.sto".to_owned(), short.unwrap().write_storage());
     let error = page_of("folder", &files).unwrap_err().to_string();
-    assert!(error.contains("folder/muscles.sto: found 2 rows; expected 291"), "{error}");
+    assert!(error.contains("folder/muscles.sto: 2 rows; expected 291"), "{error}");
 }
 
 #[test]
