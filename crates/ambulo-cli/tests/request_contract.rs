@@ -70,7 +70,10 @@ fn of_kind(kind: &str, schema: &Value) -> String {
     match kind {
         "integer" | "number" => "number".to_owned(),
         "array" => format!("({})[]", of(&schema["items"])).replace("(string)", "string").replace("(number)", "number"),
-        "object" => fields(schema, schema["properties"].as_object().unwrap()),
+        "object" => match schema["properties"].as_object() {
+            Some(properties) => fields(schema, properties),
+            None => format!("Record<string, {}>", of(&schema["additionalProperties"])),
+        },
         other => other.to_owned(),
     }
 }

@@ -1,7 +1,8 @@
 //! Prints muscle forces.
 
 use super::print_line;
-use ambulo_results::{MuscleOrigin, MuscleSummary, QuantitySummary, SpreadSummary};
+use ambulo::numerics::{counted, mean};
+use ambulo_results::{EmgSummary, MuscleOrigin, MuscleSummary, QuantitySummary, SpreadSummary};
 use anyhow::Result;
 
 /// Prints whose muscles were used, what motors added, the peaks of the loads in stance, and how EMG agrees.
@@ -20,12 +21,23 @@ pub(super) fn print_muscles(found: &MuscleSummary) -> Result<()> {
             print_line(&format!("            {} {peaks}", load.replace('_', " ")))?;
         }
     }
-    let compared: Vec<String> =
-        found.emg.iter().filter_map(|emg| emg.r.map(|r| format!("{} {} {r:.2}", emg.muscle, emg.side))).collect();
-    match compared.is_empty() {
-        true => Ok(()),
-        false => print_line(&format!("  EMG       r with activations: {}", compared.join(", "))),
-    }
+    print_emg(&found.emg)
+}
+
+/// The mean agreement of EMG with activations, and the muscles in which it is least and greatest.
+fn print_emg(channels: &[EmgSummary]) -> Result<()> {
+    let mut known: Vec<(f64, &EmgSummary)> = channels.iter().filter_map(|emg| Some((emg.r?, emg))).collect();
+    known.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let (Some((low, least)), Some((high, most))) = (known.first(), known.last()) else { return Ok(()) };
+    let mean = mean(&known.iter().map(|(r, _)| *r).collect::<Vec<_>>());
+    print_line(&format!(
+        "  EMG       r with activations {mean:.2} in the mean of {}, from {low:.2} ({} {}) to {high:.2} ({} {})",
+        counted(known.len(), "channel"),
+        least.muscle,
+        least.side,
+        most.muscle,
+        most.side
+    ))
 }
 
 /// The two peaks of a load in stance: `3.1 and 4.2 BW right, 3.0 and 4.1 BW left`.
