@@ -71,6 +71,8 @@ export interface Job {
   device?: string | null;
   /** Masses that the person carried. */
   added_mass?: string[];
+  /** How muscle forces are found; `None` finds none. */
+  muscles?: MuscleStatements | null;
   /** Limits of a person, for the verdict. */
   thresholds?: string | null;
   /** Set-ups of OpenSim's tools, at most one of each. */
@@ -106,6 +108,30 @@ export interface ForceFiles {
   /** Body and columns of the left foot. */
   left?: string | null;
 }
+
+/** How muscle forces are found, by static optimisation (`docs/MUSCLES.md`). The defaults are those of OpenSim's tool. */
+export interface MuscleStatements {
+  /** Motors that help the muscles, an OpenSim `ForceSet` (`.xml`). By default each coordinate has one. */
+  reserves?: string | null;
+  /** Electromyograms of the recording in a table of their own (`.sto`, `.mot`, `.csv`). By default the analog channels of a C3D are used. */
+  emg?: string | null;
+  /** How paths over surfaces are found. */
+  wraps?: WrapRule;
+  /** How the pennation of muscles of Millard's kind is found. */
+  pennation?: Pennation;
+  /** Exponent of the activations in the sum that is least. */
+  exponent?: number;
+  /** Weight of each activation in that sum, by the name of the muscle; 1 where none is given. */
+  weights?: Record<string, number>;
+  /** Distance between the contacts of the two condyles of a knee [m]. By default it follows from the width of the knee. */
+  condyles_m?: number | null;
+}
+
+/** How paths run over surfaces. */
+export type WrapRule = "exact" | "opensim";
+
+/** Whose pennation reduces the active force of Millard's muscles. */
+export type Pennation = "opensim" | "exact";
 
 /** How a recording is processed: the choices of a caller. Files and set-ups complete them to [`Settings`]. */
 export interface Processing {

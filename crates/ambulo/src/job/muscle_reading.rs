@@ -56,7 +56,13 @@ fn muscles(job: &Job, reading: &mut Reading<'_>) -> Result<MuscleSource, JobErro
 
 fn reserves(path: &Path, reading: &mut Reading<'_>) -> Result<OsimForceSet, JobError> {
     reading.read.push(path.to_owned());
-    OsimForceSet::read(&read_file(reading.files, path)?).in_file(path)
+    let set = OsimForceSet::read(&read_file(reading.files, path)?).in_file(path)?;
+    if !set.ignored.is_empty() {
+        let kinds: Vec<String> = set.ignored.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        let message = format!("{}: only motors at coordinates are used, not {}", path.display(), kinds.join(", "));
+        reading.findings.report(Code::ModelIgnored, message);
+    }
+    Ok(set)
 }
 
 /// Electromyograms of the table, or of the analog channels of the recording; `None` if it has none of a known muscle.
