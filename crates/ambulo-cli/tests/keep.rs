@@ -50,7 +50,7 @@ fn scenes_and_walks_can_leave_outputs_out() {
 fn unknown_names_are_refused_with_those_allowed() {
     let bench = Workbench::new("keep_unknown");
     for (words, allowed) in [
-        (with(&FORCES, &["--keep", "moments,emg"]), "times_and_distances"),
+        (with(&FORCES, &["--keep", "moments,eeg"]), "times_and_distances"),
         (with(&FORCES, &["--keep", "recording"]), "kinematics"),
         (vec!["simulate", "pendulum.toml", "--keep", "grf"], "energy"),
         (vec!["sweep", "--keep", "grf"], "walks"),

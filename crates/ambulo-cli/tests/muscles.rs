@@ -5,8 +5,8 @@ use ambulo_formats::table::Table;
 use serde_json::Value;
 use std::fs;
 
-const BARE: [&str; 8] =
-    ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75", "--height", "1.75"];
+const TRIAL: [&str; 6] = ["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "--mass", "75"];
+const STATURE: [&str; 2] = ["--height", "1.75"];
 
 fn with_demo(name: &str) -> Workbench {
     let bench = Workbench::empty(name);
@@ -15,7 +15,9 @@ fn with_demo(name: &str) -> Workbench {
 }
 
 fn forces(bench: &Workbench, options: &[&str], output: &str) -> Value {
-    let all = [&BARE[..], options, &["-o", output]].concat();
+    // A model has a stature of its own.
+    let stature: &[&str] = if options.contains(&"--model") { &[] } else { &STATURE };
+    let all = [&TRIAL[..], stature, options, &["-o", output]].concat();
     bench.run(&all).done();
     serde_json::from_slice(&fs::read(bench.folder.join(output).join("summary.json")).unwrap()).unwrap()
 }
@@ -94,7 +96,7 @@ fn statements_about_muscles_are_checked() {
         (&["--muscles", "--emg", "emg.csv"], "no channel has the name of a known muscle"),
     ];
     for (options, expected) in cases {
-        let run = bench.run(&[&BARE[..], options, &["-o", "out"]].concat());
+        let run = bench.run(&[&TRIAL[..], &STATURE, options, &["-o", "out"]].concat());
         assert!(run.code == Some(2) && run.stderr.contains(expected), "{options:?}: {}", run.stderr);
         assert!(!bench.folder.join("out").exists());
     }
