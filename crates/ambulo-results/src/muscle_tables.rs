@@ -83,8 +83,11 @@ fn contact_reactions<'a>(
     rows("Joint Contact Loads", analysis, columns.into_iter().chain(marks(sources)))
 }
 
+/// A letter for the names of columns, and what it stands for.
+type Part = (&'static str, fn(&Wrench) -> Vec3);
+
 fn components(stem: String, loads: &[Wrench]) -> impl Iterator<Item = LazyColumn<'_>> {
-    let parts: [(&str, fn(&Wrench) -> Vec3); 2] = [("f", |load| load.force), ("m", |load| load.moment)];
+    let parts: [Part; 2] = [("f", |load| load.force), ("m", |load| load.moment)];
     parts.into_iter().flat_map(move |(part, pick)| {
         let stem = stem.clone();
         ["x", "y", "z"].into_iter().enumerate().map(move |(k, axis)| -> LazyColumn<'_> {
