@@ -72,6 +72,11 @@ fn engineer() {
 }
 
 #[test]
+fn knee_load() {
+    run("KNEE_LOAD.md");
+}
+
+#[test]
 fn teacher() {
     run("TEACHER.md");
 }

@@ -6,8 +6,8 @@
 //! | `velocity` | v | greatest velocity of shortening | lengthening velocity of the fibre; shortening is negative |
 //! | `activation` | a | 1 | activation, of meaning for Thelen's force-velocity alone |
 //!
-//! All forces are in multiples of the greatest isometric force. [`thelen`] has closed forms, [`millard`] is made of
-//! quintic Bézier curves ([`bezier`]).
+//! All forces are in multiples of the greatest isometric force. `thelen` has closed forms, `millard` is made of
+//! quintic Bézier curves (`bezier`).
 //!
 //! Pinned by: tests/curves.rs (OpenSim 4.6)
 
