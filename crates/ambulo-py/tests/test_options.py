@@ -18,6 +18,8 @@ PACKAGE = REPOSITORY / "crates/ambulo-py"
 RENAMED = {"from": "start", "to": "end", "plate": "plates", "no_ground": "ground", "no_toe_joint": "toe_joint"}
 #: Options that only a command needs: where it writes, what it prints, and `Result.save(force=)`.
 OF_COMMANDS = {"output", "force", "check", "json", "quiet", "verbose", "help", "dry_run", "save", "states"}
+#: Options that are keys of the argument `muscles`.
+OF_MUSCLES = {"reserves", "emg", "wraps", "pennation", "exponent", "condyles"}
 #: Another word for `mode`.
 DOUBLED = {"planar"}
 VERBS = {
@@ -39,7 +41,10 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
     options = {RENAMED.get(name, name) for name in (option.replace("-", "_") for option in named)}
     arguments = inspect.signature(function).parameters
     assert len(options) > 4
-    assert options - OF_COMMANDS - DOUBLED <= set(arguments)
+    described_here = inspect.getdoc(function)
+    inside = OF_MUSCLES if "muscles" in arguments else set()
+    assert all(f'"{name}' in described_here for name in inside)
+    assert options - OF_COMMANDS - DOUBLED - inside <= set(arguments)
     # A function that writes a folder names it.
     assert verb not in ("batch", "session") or "output" in arguments
     # The first arguments are those that the command takes without an option; no option is invented.
@@ -171,3 +176,23 @@ def test_a_validation_is_the_folder_of_the_command(files, tmp_path):
     assert ambulo.open(tmp_path / "command").page() == result.page()
     with pytest.raises(ambulo.InputError, match="this folder has results of Ambulo"):
         ambulo.validate(tmp_path / "command")
+
+
+def test_muscles_are_computed_and_their_options_are_checked(tmp_path):
+    command("demo", "-o", "demo", "--keep", "recording", "--quiet", folder=tmp_path)
+    recording = {"static": tmp_path / "demo/input/standing.c3d", "mass": 75, "height": 1.75}
+    walk = tmp_path / "demo/input/walk.c3d"
+    result = ambulo.forces(walk, **recording, muscles={"exponent": 2})
+    assert 0.01 <= result.muscles["soleus_r_activation"].min() <= result.muscles["soleus_r_activation"].max() <= 1
+    assert {load["quantity"] for load in result.contact_loads} >= {"knee_first_peak", "knee_medial_impulse"}
+    model = result.model
+    q = np.zeros((2, len(model.coordinates)))
+    paths = model.muscle_paths(q)
+    assert paths["length"].shape == (2, len(model.muscles)) and paths["arm"].shape == (2, len(model.muscles), q.shape[1])
+    found = model.static_optimization(q, q, np.zeros_like(q))
+    assert np.all(found["activation"] >= 0.01 - 1e-9)
+    with pytest.raises(ambulo.InputError, match="wraps"):
+        model.muscle_paths(q, wraps="nothing")
+    with pytest.raises(ambulo.InputError, match="muscles"):
+        ambulo.forces(walk, **recording, muscles={"nothing": 1})
+    assert ambulo.forces(walk, **recording).muscles is None

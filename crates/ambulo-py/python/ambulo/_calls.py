@@ -187,7 +187,7 @@ def forces(
         Point masses fixed to bodies: ``"torso:2.5:-0.1,0.3,0"``, kilograms and metres.
     muscles : bool or mapping, optional
         Compute muscle forces and joint contact loads (`Result.muscles`, docs/MUSCLES.md): True, or what differs from the defaults:
-        ``{"reserves": "reserves.xml", "emg": "emg.sto", "wraps": "opensim", "exponent": 3, "weights": {"soleus_r": 2}, "condyles_m": 0.04}``.
+        ``{"reserves": "reserves.xml", "emg": "emg.sto", "wraps": "opensim", "pennation": "exact", "exponent": 3, "weights": {"soleus_r": 2}, "condyles_m": 0.04}``.
     thresholds : str or path-like, optional
         Limits of a person for the verdict: ``.toml``.
     keep : sequence of str, optional
