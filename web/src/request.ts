@@ -123,7 +123,7 @@ export interface MuscleStatements {
   exponent?: number;
   /** Weight of each activation in that sum, by the name of the muscle; 1 where none is given. */
   weights?: Record<string, number>;
-  /** Distance between the contacts of the two condyles of a knee [m]. By default it follows from the width of the knee. */
+  /** Distance between the contacts of the two condyles of a knee [m]. By default 40 mm for a knee 90 mm wide, in proportion to the width that the recording states (`KneeWidth`), otherwise to stature. */
   condyles_m?: number | null;
 }
 

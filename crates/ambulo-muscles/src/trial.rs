@@ -10,6 +10,7 @@
 use crate::set::MuscleSet;
 use crate::settings::{MuscleSettings, SolverError};
 use crate::solver::{FrameValues, MuscleSolver};
+use crate::wrap::Contact;
 use ambulo_body::dynamics::{LoadSeries, ReactionReader};
 use ambulo_body::kinematics::Trajectory;
 use ambulo_body::model::{BodyId, CoordinateId, Model};
@@ -29,6 +30,8 @@ pub struct MuscleSeries {
     pub length: Vec<f64>,
     /// Lengthening speed of the path [m/s].
     pub speed: Vec<f64>,
+    /// Number of frames in which an end of the path lies inside a surface, so that the path runs straight there.
+    pub inside_frames: usize,
 }
 
 /// The motors at one coordinate over a motion; one entry per frame.
@@ -77,7 +80,13 @@ pub struct MuscleTrial {
 impl MuscleTrial {
     fn empty(solver: &MuscleSolver, set: &MuscleSet, frames: usize) -> MuscleTrial {
         let column = || Vec::with_capacity(frames);
-        let muscle = |_| MuscleSeries { activation: column(), force: column(), length: column(), speed: column() };
+        let muscle = |_| MuscleSeries {
+            activation: column(),
+            force: column(),
+            length: column(),
+            speed: column(),
+            inside_frames: 0,
+        };
         let reserve = |id: &CoordinateId| ReserveSeries { coordinate: *id, force: column(), unmet: column() };
         let load = |body| LoadSeries { body, points: Vec::with_capacity(frames), wrenches: Vec::with_capacity(frames) };
         MuscleTrial {
@@ -170,6 +179,9 @@ pub fn solve_trial(
             *force = column[frame];
         }
         trial.push(frame, solver.frame(posture, &forces));
+        for (i, series) in trial.muscles.iter_mut().enumerate() {
+            series.inside_frames += usize::from(solver.paths().contacts(i).contains(&Contact::EndInside));
+        }
     });
     Ok(trial)
 }

@@ -19,8 +19,10 @@ use pyo3::types::PyDict;
 /// The muscles in the file of a model, or those of the built-in body if it has none.
 pub(crate) fn muscles_of(content: &[u8], model: &Model) -> Result<MuscleSet, String> {
     let document = OsimModel::read(content).map_err(|error| error.to_string())?;
-    let own = MuscleSet::of_document(&document, model, &mut Findings::default());
-    own.or_else(|error| muscle_set(model).map_err(|other| format!("{error}; built-in muscles: {other}")))
+    if document.muscles.as_ref().is_ok_and(|own| own.muscles.is_empty()) {
+        return muscle_set(model).map_err(|error| format!("the file has no muscles; built-in muscles: {error}"));
+    }
+    MuscleSet::of_document(&document, model, &mut Findings::default()).map_err(|error| error.to_string())
 }
 
 /// How paths over surfaces are found, by its name.

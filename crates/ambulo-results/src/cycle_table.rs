@@ -5,11 +5,10 @@ use ambulo::analysis::{Analysis, CYCLE_SAMPLES, Cycle, over_cycle_of};
 use ambulo::dynamics::JointMoments;
 use ambulo::ground::BodyForces;
 use ambulo::model::anatomy::Movement;
-use ambulo::model::{CoordinateId, CoordinateKind, Model, Side};
+use ambulo::model::{BySide, CoordinateId, CoordinateKind, Model, Side};
 use ambulo::motion::TimeGrid;
-use ambulo::muscles::contact_loads::{JointLoad, LegLoads};
+use ambulo::muscles::contact_loads::LegLoads;
 use ambulo::spatial::Vec3;
-use ambulo::study::MuscleOutcome;
 use ambulo_formats::number::NumberText;
 use ambulo_formats::table::{guarded, unguarded};
 use std::collections::BTreeSet;
@@ -128,19 +127,33 @@ fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid
         .collect()
 }
 
-/// Loads of the joints with the tensions of the muscles [body weights]: size of the force at hip, knee and ankle, and
-/// the shares of the condyles along the shank.
-pub(crate) fn contact_rows(model: &Model, analysis: &Analysis, found: &MuscleOutcome, cycle: &Cycle) -> Vec<CycleRow> {
-    let Some(LegLoads { joints, knee }) = &found.loads[cycle.side] else { return Vec::new() };
+/// Loads of the joints with the tensions of the muscles: size of the force at hip, knee and ankle, and the shares of the
+/// condyles along the shank, with their names in [`ambulo::study::Outcome::contact_load_stances`].
+pub const CONTACT_LOADS: [(&str, &str); 5] = [
+    ("hip", "hip_contact_force"),
+    ("knee", "knee_contact_force"),
+    ("ankle", "ankle_contact_force"),
+    ("knee_medial", "knee_medial_force"),
+    ("knee_lateral", "knee_lateral_force"),
+];
+
+/// These loads over a cycle [body weights]; none for a leg without them.
+#[must_use]
+pub fn contact_rows(
+    model: &Model,
+    analysis: &Analysis,
+    loads: &BySide<Option<LegLoads>>,
+    cycle: &Cycle,
+) -> Vec<CycleRow> {
+    let Some(LegLoads { joints, knee }) = &loads[cycle.side] else { return Vec::new() };
     let grid = analysis.trajectory.grid();
     let weight = analysis.mass.kg * model.gravity().norm();
-    let names = ["hip_contact_force", "knee_contact_force", "ankle_contact_force"];
-    let size = |(name, load): (&str, &JointLoad)| {
-        row(name.to_owned(), "BW", cycle, grid, |i| load.in_child[i].force.norm() / weight)
+    let [hip, knee_size, ankle] = joints.each_ref().map(|load| move |i: usize| load.in_child[i].force.norm());
+    let values: [&dyn Fn(usize) -> f64; 5] = [&hip, &knee_size, &ankle, &|i| knee.medial[i], &|i| knee.lateral[i]];
+    let of_load = |((_, name), value): ((&str, &str), &dyn Fn(usize) -> f64)| {
+        row(name.to_owned(), "BW", cycle, grid, |i| value(i) / weight)
     };
-    let shares = [("knee_medial_force", &knee.medial), ("knee_lateral_force", &knee.lateral)];
-    let share = |(name, values): (&str, &Vec<f64>)| row(name.to_owned(), "BW", cycle, grid, |i| values[i] / weight);
-    names.into_iter().zip(joints).map(size).chain(shares.map(share)).collect()
+    CONTACT_LOADS.into_iter().zip(values).map(of_load).collect()
 }
 
 /// First line.

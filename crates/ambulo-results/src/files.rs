@@ -345,7 +345,9 @@ pub(crate) fn files_of<'a>(
             let moments = moments.lock().unwrap_or_else(PoisonError::into_inner);
             let cycle = &analysis.cycles[k];
             let mut rows = cycle_table::rows_of(model, analysis, cycle, &moments);
-            rows.extend(muscles.into_iter().flat_map(|found| cycle_table::contact_rows(model, analysis, found, cycle)));
+            rows.extend(
+                muscles.into_iter().flat_map(|found| cycle_table::contact_rows(model, analysis, &found.loads, cycle)),
+            );
             rows
         };
         files.push(OutputFile::cycles(analysis.cycles.len(), rows));

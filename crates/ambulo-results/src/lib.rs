@@ -31,7 +31,7 @@ mod walking_summary;
 pub use ambulo::study::ForceOrigin as GroundSource;
 pub use consistency_summary::{ChangeUnit, ConsistencySummary, CoordinateSize, FootSize};
 pub use convention::{Convention, ConventionSummary};
-pub use cycle_table::{CycleRow, JOINT_MOMENTS, cycle_rows};
+pub use cycle_table::{CONTACT_LOADS, CycleRow, JOINT_MOMENTS, contact_rows, cycle_rows};
 pub use file_names::{
     BATCH, BATCH_PAGE, CLAIMS, CLINICAL, CLOSURES, CONTACT_REACTIONS, CONTACTS, CYCLES, EMG, ENERGY, EVENTS,
     EXTERNAL_LOADS, FIGURE, GROUND, GROUND_MEASURED, GROUND_SD, JOINTS, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL,
@@ -70,7 +70,9 @@ pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
 pub use walk_summary::{PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
-pub use walking_summary::{QuantitySummary, SpreadSummary, WalkingSummary, knee_adduction_summary};
+pub use walking_summary::{
+    QuantitySummary, SpreadSummary, WalkingSummary, contact_load_summary, knee_adduction_summary,
+};
 
 /// For the tests of this crate.
 #[doc(hidden)]

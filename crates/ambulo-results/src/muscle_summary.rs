@@ -1,7 +1,7 @@
 //! `muscles` of `summary.json`: reserves, loads of the joints, electromyograms.
 
 use crate::force_unit::ForceUnit;
-use crate::walking_summary::{QuantitySummary, stance_summary};
+use crate::walking_summary::{QuantitySummary, contact_load_summary};
 use ambulo::model::{CoordinateKind, Side};
 use ambulo::study::{MuscleOutcome, Outcome};
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,8 @@ pub struct ReserveSummary {
     pub largest: f64,
     /// When [s].
     pub at_s: f64,
-    /// Its share of the largest generalised force of the coordinate.
+    /// Its share of the largest generalised force of the coordinate, or of 0.05 N.m for each kilogram of body mass where
+    /// that is larger.
     pub share: f64,
 }
 
@@ -75,14 +76,17 @@ pub struct EmgSummary {
 /// The summary of the muscles; `None` where muscle forces were not asked for.
 pub(crate) fn muscle_summary(outcome: &Outcome) -> Option<MuscleSummary> {
     let found = outcome.muscles.as_ref()?;
-    let of_loads = |(load, legs)| stance_summary(&legs, ["BW", "BW", "BW.s"], &format!("{load}_"));
     let condyles_m = Side::BOTH.into_iter().find_map(|side| found.loads[side].as_ref());
     Some(MuscleSummary {
         source: if found.is_built_in { MuscleOrigin::BuiltIn } else { MuscleOrigin::Model },
         muscles: found.set.muscles.len(),
         largest_reserve: largest_reserve(outcome, found),
         unmet_frames: found.trial.unmet_frames.len(),
-        contact_loads: outcome.contact_load_stances().into_iter().flat_map(of_loads).collect(),
+        contact_loads: outcome
+            .contact_load_stances()
+            .into_iter()
+            .flat_map(|(load, legs)| contact_load_summary(load, &legs))
+            .collect(),
         condyles_m: condyles_m.map(|leg| leg.knee.condyle_distance_m),
         emg: emg(found),
     })

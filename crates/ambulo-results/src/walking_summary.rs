@@ -147,9 +147,16 @@ pub fn knee_adduction_summary(legs: &BySide<LegStances>) -> Vec<QuantitySummary>
     stance_summary(legs, ["N.m/kg", "N.m/kg", "N.m.s/kg"], "")
 }
 
+/// The same of the load of a joint, or of a condyle, with its name before the quantities
+/// ([`ambulo::study::Outcome::contact_load_stances`]).
+#[must_use]
+pub fn contact_load_summary(load: &str, legs: &BySide<LegStances>) -> Vec<QuantitySummary> {
+    stance_summary(legs, ["BW", "BW", "BW.s"], &format!("{load}_"))
+}
+
 /// `first_peak`, `second_peak` and `impulse` over the stances of both legs, in these units, with this before their
 /// names.
-pub(crate) fn stance_summary(legs: &BySide<LegStances>, units: [&str; 3], prefix: &str) -> Vec<QuantitySummary> {
+fn stance_summary(legs: &BySide<LegStances>, units: [&str; 3], prefix: &str) -> Vec<QuantitySummary> {
     let names = ["first_peak", "second_peak", "impulse"].into_iter().zip(units);
     let quantity = |(k, (quantity, unit)): (usize, (&str, &str))| {
         let values = |side: Side| legs[side].stances.iter().map(|found| found[k]).collect::<Vec<f64>>();

@@ -115,6 +115,7 @@ mod marker_sets;
 mod marker_smoothing;
 mod marker_tasks;
 mod mujoco_parity;
+mod muscles;
 mod opensim_joints;
 mod opensim_parity;
 mod optimal;

@@ -76,11 +76,15 @@ codes! {
         "Check its greatest isometric force in the model.";
     MusclesInsideWrap "muscles.inside_wrap" Warning
         "The path of a muscle has an end inside a surface over which it should wrap; it runs straight there."
-        "Move the point or the surface in the model.";
+        "Move the point or the surface in the model; lengths and moment arms of the muscle are wrong there.";
     MusclesReserves "muscles.reserves" Warning
         "The muscles are too weak for a moment: motors add more than a tenth of the largest one at this coordinate."
         "Check the strength of the muscles and the moments; forces of the muscles there are too small by what the \
          motors add.";
+    MusclesUnmet "muscles.unmet" Warning
+        "Muscles and motors together cannot give the moments in some frames."
+        "Give motors without limits to the coordinates that lack one; forces in these frames do not balance the \
+         motion.";
     MusclesAvailable "muscles.available" Note
         "The model has muscles; their forces are computed on request."
         "Ask for muscle forces to get activations, tensions and the loads of the joints.";

@@ -30,7 +30,10 @@
 //! Without markers on the spines the pelvis stands upright as the reference and has the size of the legs. Without a
 //! joint of the toes their points belong to the foot. Left legs are mirror images. A force is a volume over a fibre
 //! length times a specific tension, which is assumed to be that of the reference. No muscle is modelled for coordinates
-//! outside hips, knees and ankles (lumbar joint, arms, toes): each has an unlimited motor.
+//! outside hips, knees and ankles (lumbar joint, arms, toes): each has an unlimited motor. So has the subtalar joint,
+//! although muscles cross it, which is what Rajagopal's `subject_walk_scaled.osim` assumes by welding it (read): the
+//! Achilles tendon passes its axis at a few millimetres, on one side or the other, so that small errors of the axis or
+//! of the centre of pressure would decide which muscles have to balance it.
 //!
 //! Sources: parameters and paths: the header of the data file. Volume: Handsfield and others 2014 (unverified), as in
 //! the public script of D. Stanev with Rajagopal's rule for forces (read).
@@ -46,7 +49,7 @@ mod table;
 use crate::set::{
     CoordinateActuator, Muscle, MuscleCurves, MuscleParameters, MusclePath, MuscleSet, PathPoint, PointPlace,
 };
-use ambulo_body::model::{BodyId, CoordinateKind, Drive, Model, Side};
+use ambulo_body::model::{BodyId, CoordinateId, CoordinateKind, Drive, Model, Movement, Side};
 use ambulo_body::spatial::Vec3;
 use ambulo_body::toml_reader::TomlError;
 use segments::{JointAngle, Leg};
@@ -55,6 +58,8 @@ use table::{LegTable, MuscleRow, PlaceRow, PointRow};
 /// Moment of a motor at control 1 [N.m, or N for a translation]: that of the motors of arms and trunk in the model of
 /// Rajagopal and others 2016 (`subject_walk_scaled.osim`, read).
 const MOTOR_FORCE: f64 = 50.0;
+/// Moment of the motor of a subtalar joint at control 1 [N.m]: so much that it costs nothing, as where it is locked.
+const SUBTALAR_FORCE: f64 = 1000.0;
 /// Least and greatest activation of a muscle, OpenSim's default.
 const ACTIVATION_RANGE: [f64; 2] = [0.01, 1.0];
 /// Muscle volume of both legs: slope [cm³/(kg m)] and intercept [cm³] against body mass times stature.
@@ -196,7 +201,7 @@ fn neutral_length(row: &MuscleRow, leg: &Leg, is_own: bool) -> f64 {
     places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// A motor at every free coordinate outside the root and the legs.
+/// A motor at every free coordinate outside the root and the legs, and at the subtalar joints.
 fn motors(model: &Model) -> Vec<CoordinateActuator> {
     let in_leg = |body: BodyId| {
         model.anatomy().legs().values().flatten().any(|leg| {
@@ -204,15 +209,18 @@ fn motors(model: &Model) -> Vec<CoordinateActuator> {
             upwards.any(|own| own == body)
         })
     };
+    let inversion = |side| Some(model.anatomy().coordinate(Movement::SubtalarInversion, Some(side))?.0);
+    let subtalar: Vec<CoordinateId> = Side::BOTH.into_iter().filter_map(inversion).collect();
     let bodies = model.body_ids().filter(|body| !in_leg(*body));
     let joints = bodies.map(|body| &model.bodies()[body.index()].joint).filter(|joint| joint.parent.is_some());
-    let free = joints.flat_map(|joint| joint.coordinates()).filter_map(|coordinate| {
+    let driven = joints.flat_map(|joint| joint.coordinates()).chain(subtalar.iter().copied());
+    let free = driven.filter_map(|coordinate| {
         let found = &model.coordinates()[coordinate.index()];
         let is_free = found.drive == Drive::Free && found.kind != CoordinateKind::Coupled;
         is_free.then(|| CoordinateActuator {
             name: format!("{}_motor", found.name),
             coordinate,
-            optimal_force: MOTOR_FORCE,
+            optimal_force: if subtalar.contains(&coordinate) { SUBTALAR_FORCE } else { MOTOR_FORCE },
             control_range: [f64::NEG_INFINITY, f64::INFINITY],
         })
     });

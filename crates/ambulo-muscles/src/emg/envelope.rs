@@ -54,7 +54,7 @@ pub struct EmgEnvelope {
     pub side: Option<Side>,
     /// What was done with the channel.
     pub processing: Processing,
-    /// What it holds. Use it only if this is [`EmgSignal::Muscle`].
+    /// The kind of signal. Use the envelope only if this is [`EmgSignal::Muscle`].
     pub signal: EmgSignal,
     /// Times of the values.
     pub grid: TimeGrid,

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 const JOINTS: [(&str, &[&str]); 3] = [
     ("hip", &["hip_flexion", "hip_adduction", "hip_rotation"]),
     ("knee", &["knee_angle"]),
-    ("ankle", &["ankle_angle"]),
+    ("ankle", &["ankle_angle", "subtalar_angle"]),
 ];
 
 /// Names of Gait2392's muscles in Rajagopal's model; muscles that it divides otherwise are not among them.
@@ -121,8 +121,10 @@ fn differences(published: &Published, model: &Model, own: impl Fn(f64, &State) -
             for stem in JOINTS.iter().flat_map(|(_, stems)| *stems) {
                 let name = format!("{stem}_{}", side.letter());
                 let sign = if *stem == "knee_angle" { published.knee } else { 1.0 };
+                // Rajagopal's model has no subtalar joint.
+                let Some(theirs_id) = their_model.coordinate(&name) else { continue };
                 let own = ours.arm(i, model.coordinate(&name).unwrap());
-                let arm = sign * theirs.arm(other, their_model.coordinate(&name).unwrap());
+                let arm = sign * theirs.arm(other, theirs_id);
                 if own.abs().max(arm.abs()) < 1e-9 {
                     continue;
                 }

@@ -67,7 +67,7 @@ pub(super) fn peaks(model: &Model, set: &MuscleSet, trajectory: &Trajectory, gro
     });
     let reserves = trial.reserve_use().into_iter().filter(|reserve| {
         let name = &model.coordinates()[reserve.coordinate.index()].name;
-        ["hip", "knee", "ankle", "subtalar"].iter().any(|stem| name.starts_with(stem))
+        ["hip", "knee", "ankle"].iter().any(|stem| name.starts_with(stem))
     });
     for reserve in reserves.clone().filter(|reserve| reserve.largest > 1.0) {
         let name = &model.coordinates()[reserve.coordinate.index()].name;

@@ -72,7 +72,9 @@ fn a_built_in_body_has_43_muscles_a_leg_and_motors_elsewhere() {
             "arm_add_l",
             "arm_rot_l",
             "elbow_flex_l",
-            "pro_sup_l"
+            "pro_sup_l",
+            "subtalar_angle_r",
+            "subtalar_angle_l"
         ]
     );
     assert!(set.wraps.is_empty());

@@ -26,6 +26,9 @@ pub struct MuscleOutcome {
     pub trial: MuscleTrial,
     /// Loads of hip, knee and ankle; `None` for a leg that the model does not have.
     pub loads: BySide<Option<LegLoads>>,
+    /// The same with the measured forces of [`PredictedGround::measured`](super::PredictedGround::measured), where
+    /// forces were predicted beside them.
+    pub measured_loads: Option<BySide<Option<LegLoads>>>,
     /// Envelopes of the recorded channels.
     pub emg: Option<EmgTrial>,
     /// Envelopes beside activations.
@@ -46,19 +49,41 @@ impl MuscleOutcome {
         all.map(share).max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// Warns where strength was not enough, and where paths have no load to share.
+    /// Warns where strength was not enough, where nothing could give a moment, and where paths ended inside a surface.
     pub(super) fn report(&self, body: &Model, analysis: &Analysis, findings: &mut Findings) {
-        let Some((used, share)) = self.weakest(body).filter(|(_, share)| *share > LARGE_RESERVE) else { return };
-        let coordinate = &body.coordinates()[used.coordinate.index()];
-        let unit = if coordinate.kind == CoordinateKind::Rotation { "N.m" } else { "N" };
-        let message = format!(
-            "the muscles are too weak at {} at {:.2} s: motors add up to {:.1} {unit}, {:.0} % of the largest moment \
-             there",
-            coordinate.name,
-            analysis.trajectory.grid().time(used.frame),
-            used.largest,
-            100.0 * share
-        );
-        findings.report(Code::MusclesReserves, message);
+        let grid = analysis.trajectory.grid();
+        if let Some((used, share)) = self.weakest(body).filter(|(_, share)| *share > LARGE_RESERVE) {
+            let coordinate = &body.coordinates()[used.coordinate.index()];
+            let unit = if coordinate.kind == CoordinateKind::Rotation { "N.m" } else { "N" };
+            let message = format!(
+                "the muscles are too weak at {} at {:.2} s: motors add up to {:.1} {unit}, {:.0} % of the largest \
+                 moment there; forces of muscles and loads of this joint are too small by as much",
+                coordinate.name,
+                grid.time(used.frame),
+                used.largest,
+                100.0 * share
+            );
+            findings.report(Code::MusclesReserves, message);
+        }
+        if let Some(first) = self.trial.unmet_frames.first() {
+            let message = format!(
+                "muscles and motors together cannot give the moments in {} of {} frames, first at {:.2} s",
+                self.trial.unmet_frames.len(),
+                grid.frames,
+                grid.time(*first)
+            );
+            findings.report(Code::MusclesUnmet, message);
+        }
+        let inside = self.set.muscles.iter().zip(&self.trial.muscles).filter(|(_, series)| series.inside_frames > 0);
+        let inside: Vec<String> =
+            inside.map(|(muscle, series)| format!("`{}` ({})", muscle.name, series.inside_frames)).collect();
+        if !inside.is_empty() {
+            let message = format!(
+                "paths end inside a surface and run straight there, in this number of {} frames: {}",
+                grid.frames,
+                inside.join(", ")
+            );
+            findings.report(Code::MusclesInsideWrap, message);
+        }
     }
 }

@@ -16,7 +16,8 @@ pub struct MuscleRequest {
     pub settings: MuscleSettings,
     /// Motors that help them; `None` takes those of the settings.
     pub reserves: Option<OsimForceSet>,
-    /// Distance between the contacts of both condyles of a knee [m]; `None` takes it from the width of the knee.
+    /// Distance between the contacts of both condyles of a knee [m]; `None` takes it from the width of each knee
+    /// in the recording, or from stature.
     pub condyles_m: Option<f64>,
     /// Electromyograms of the recording.
     pub emg: Option<EmgRecording>,

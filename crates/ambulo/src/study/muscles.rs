@@ -22,17 +22,17 @@ use crate::muscles::trial::{MuscleTrial, solve_trial};
 use crate::muscles::wrap::WrapRule;
 use std::collections::BTreeSet;
 
-/// The muscle forces of an outcome.
+/// The muscle forces of an outcome; `knee_width_m` where it was measured.
 ///
 /// # Errors
 /// A body that has no place for the muscles, settings that name what the body does not have.
 pub(super) fn solved(
     request: MuscleRequest,
+    knee_width_m: Option<f64>,
     outcome: &Outcome,
     findings: &mut Findings,
 ) -> Result<MuscleOutcome, StudyError> {
     let (body, analysis) = (&outcome.body, outcome.complete());
-    let Analysis { trajectory, forces, ground, .. } = analysis;
     let (set, is_built_in) = match &request.muscles {
         MuscleSource::Model(own) => (own.set.scaled(&own.model, body, &body.scale_factors())?, false),
         MuscleSource::BuiltIn => (built_in::muscle_set(body)?, true),
@@ -41,20 +41,28 @@ pub(super) fn solved(
     if let Some(listed) = &request.reserves {
         settings.reserves = Reserves::Listed(MuscleSet::actuators_of(&listed.actuators, body)?);
     }
-    let trial = solve_trial(body, &set, &settings, trajectory, &forces.generalized)?;
-    let reader = trial.reader(body, trajectory, &ground.loads());
-    let usual_m = condyle_distance(Some(KNEE_WIDTH * outcome.person.height_m));
-    let condyles_m = BySide::from_fn(|_| request.condyles_m.unwrap_or(usual_m));
-    let loads = contact_loads(body, trajectory, &reader, condyles_m);
+    let knee_m = knee_width_m.unwrap_or(KNEE_WIDTH * outcome.person.height_m);
+    let condyles_m = request.condyles_m.unwrap_or_else(|| condyle_distance(Some(knee_m)));
+    let condyles_m = BySide { right: condyles_m, left: condyles_m };
+    let solve = |analysis: &Analysis| -> Result<(MuscleTrial, BySide<Option<LegLoads>>), StudyError> {
+        let Analysis { trajectory, forces, ground, .. } = analysis;
+        let trial = solve_trial(body, &set, &settings, trajectory, &forces.generalized)?;
+        let reader = trial.reader(body, trajectory, &ground.loads());
+        let loads = contact_loads(body, trajectory, &reader, condyles_m);
+        Ok((trial, loads))
+    };
+    let (trial, loads) = solve(analysis)?;
+    let measured = outcome.prediction.as_ref().and_then(|found| found.measured.as_ref());
+    let measured_loads = measured.map(solve).transpose()?.map(|(_, loads)| loads);
     let emg = request.emg.and_then(|recording| envelopes_of(recording, findings));
     let agreement = emg.as_ref().map_or_else(Vec::new, |emg| agreement(&emg.envelopes, &set, &trial, analysis));
     let crossed = crossed(body, &set);
-    let solved = MuscleOutcome { set, is_built_in, trial, loads, emg, agreement, crossed };
+    let solved = MuscleOutcome { set, is_built_in, trial, loads, measured_loads, emg, agreement, crossed };
     solved.report(body, analysis, findings);
     Ok(solved)
 }
 
-/// Width of a knee as a share of stature: 90 mm at 1.75 m, our choice; it scales the distance of the condyles.
+/// Width of a knee that was not measured, as a share of stature: 90 mm at 1.75 m, our choice.
 const KNEE_WIDTH: f64 = 0.09 / 1.75;
 
 /// Coordinates inside the body that muscles cross and that no motor of the model drives.

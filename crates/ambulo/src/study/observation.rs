@@ -599,19 +599,28 @@ impl MarkerSource {
 
     /// Measurements of the person, for the built-in body.
     fn person(&self, settings: &Settings) -> Result<calibration::PersonMeasurements, StudyError> {
-        let MarkerSource { trial, standing, body, .. } = self;
-        let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = body else { return Err(StudyError::MassUnknown) };
-        let still = || standing.as_ref().map(|standing| -> &LaboratoryFile { standing });
-        let stated = |of: &dyn Fn(&LaboratoryFile) -> Option<f64>| still().and_then(of).or_else(|| of(trial));
+        let MarkerBody::BuiltIn { table, mass_kg, height_m, .. } = &self.body else {
+            return Err(StudyError::MassUnknown);
+        };
         Ok(calibration::PersonMeasurements {
             table: *table,
             mass: mass_kg.ok_or(StudyError::MassUnknown)?,
-            height: height_m.or_else(|| stated(&|file| file.subject.height_m)),
+            height: height_m.or_else(|| self.stated(|file| file.subject.height_m)),
             measurements: BodyMeasurements {
                 joints: JointCentres { hip: settings.hip, knee_axis: settings.knee_axis, ..JointCentres::default() },
-                ..BodyMeasurements::from_processing(|name| stated(&|file| file.subject.processing(name)))
+                ..self.measurements()
             },
         })
+    }
+
+    /// Widths and lengths that the files state.
+    pub(super) fn measurements(&self) -> BodyMeasurements {
+        BodyMeasurements::from_processing(|name| self.stated(|file| file.subject.processing(name)))
+    }
+
+    /// What the standing trial states, otherwise the trial.
+    fn stated(&self, of: impl Fn(&LaboratoryFile) -> Option<f64>) -> Option<f64> {
+        self.standing.as_ref().and_then(|standing| of(standing)).or_else(|| of(&self.trial))
     }
 }
 

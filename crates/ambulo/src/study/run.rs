@@ -92,6 +92,7 @@ fn road(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome, StudyError> {
     let muscles = source.muscles.take();
+    let knee_width_m = source.knee_width_m();
     let (observed, motion) = source.observe(settings, findings, progress)?;
     let not_measured = unmeasured(&observed, &motion, findings);
     let motion = if settings.refit { refitted(&observed, motion, settings, findings) } else { motion };
@@ -133,7 +134,7 @@ fn road(
         force_origin,
     };
     let mut outcome = computed.judged(settings, findings);
-    outcome.muscles = muscles.map(|request| solved(request, &outcome, findings)).transpose()?;
+    outcome.muscles = muscles.map(|request| solved(request, knee_width_m, &outcome, findings)).transpose()?;
     report_sliding(&outcome, settings, findings);
     progress.end(Stage::Feasibility)?;
     Ok(outcome)

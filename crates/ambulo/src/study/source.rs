@@ -14,6 +14,7 @@ use crate::model::marker_set::MarkerSet;
 use crate::model::{Model, Side};
 use crate::motion::skeleton::SkeletonRecording;
 use crate::motion::{ForceRecording, Motion, SensorRecording};
+use crate::numerics::mean;
 use crate::spatial::Vec3;
 use ambulo_formats::external_loads::ExternalLoads;
 use ambulo_formats::table::Table;
@@ -37,6 +38,15 @@ pub struct Source {
     pub movement: Option<Arc<LaboratoryFile>>,
     /// Muscle forces to compute; `None` computes none.
     pub muscles: Option<MuscleRequest>,
+}
+
+impl Source {
+    /// Mean width of the knees that the files of markers state [m].
+    pub(super) fn knee_width_m(&self) -> Option<f64> {
+        let Recording::Markers(markers) = &self.recording else { return None };
+        let stated: Vec<f64> = markers.measurements().knee_width.values().copied().flatten().collect();
+        (!stated.is_empty()).then(|| mean(&stated))
+    }
 }
 
 /// The kinds of recording.
