@@ -17,6 +17,7 @@ const ALL = [
   "hostile",
   "scene",
   "compared",
+  "muscles",
 ];
 /** Largest size of the page of a ten-second walk [bytes]. */
 const LARGEST = 1_500_000;
@@ -60,4 +61,20 @@ test("the first picture of a ten-second walk appears, and its time is reported",
       assert.ok(share > 0.02, `only ${share} of the picture is drawn`);
     });
   }
+});
+
+test("muscles are on the figure, and what the joints carry below it", async () => {
+  await withPage("muscles", async ({ page }) => {
+    const muscles = page.getByRole("button", { name: "Muscles", exact: true });
+    assert.equal(await muscles.getAttribute("aria-pressed"), "true");
+    const shown = await picture(page);
+    await muscles.click();
+    assert.equal(await muscles.getAttribute("aria-pressed"), "false");
+    assert.notDeepEqual(await picture(page), shown);
+    for (const group of ["Joint contact loads", "Muscles"]) {
+      assert.equal(await page.getByRole("heading", { name: group, exact: true }).count(), 1, group);
+    }
+    await page.getByRole("heading", { name: "Joint contact loads", exact: true }).scrollIntoViewIfNeeded();
+    assert.ok((await page.locator("#group-contact ~ .grid figure").count()) >= 8);
+  });
 });

@@ -75,6 +75,63 @@ fn a_bare_c3d_gives_muscle_forces_and_knee_loads_and_the_written_model_gives_the
     );
 }
 
+/// The cycles of a trial in `cycles.csv` of a session: side, source of the forces, and the curve of a quantity.
+fn session_curves(bench: &Workbench, folder: &str, quantity: &str) -> Vec<(String, String, Vec<f64>)> {
+    let text = fs::read_to_string(bench.folder.join(folder).join("cycles.csv")).unwrap();
+    let rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>()).filter(|row| row[9] == quantity);
+    let values = |row: &[&str]| row[11..].iter().map(|cell| cell.parse().unwrap()).collect();
+    rows.map(|row| (row[1].to_owned(), row[6].to_owned(), values(&row))).collect()
+}
+
+#[test]
+fn a_session_pools_what_joints_carry_from_the_forces_of_each_cycle() {
+    let bench = with_demo("muscles_of_a_session");
+    fs::create_dir_all(bench.folder.join("Ann")).unwrap();
+    ["walk", "standing"].map(|name| {
+        let file = format!("{name}.c3d");
+        fs::copy(bench.folder.join("demo/input").join(&file), bench.folder.join("Ann").join(&file)).unwrap();
+    });
+    let person = ["--mass", "75", "--height", "1.75"];
+    bench.run(&[&["session", "Ann", "-o", "visit", "--quiet", "--", "--muscles"], &person[..]].concat()).done();
+    let summary: Value = serde_json::from_slice(&fs::read(bench.folder.join("visit/summary.json")).unwrap()).unwrap();
+    let loads = summary["contact_loads"].as_array().unwrap();
+    assert_eq!(loads.len(), 15, "three quantities of five loads");
+    let page = fs::read_to_string(bench.folder.join("visit/session.html")).unwrap();
+    for known in ["Joint contact loads", "mean-contact-knee_medial_force", "knee medial first peak"] {
+        assert!(page.contains(known), "{known}");
+    }
+
+    // Cycles on plates have the loads of `forces` with the measured forces, the others those of a prediction. Foot
+    // strikes of both differ by a frame, so that largest values are compared.
+    let curves = |folder: &str, options: &[&str]| {
+        forces(&bench, &[&["--muscles", "--keep", "cycles"], options].concat(), folder);
+        let text = fs::read_to_string(bench.folder.join(folder).join("cycles.csv")).unwrap();
+        let rows = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let own = rows.filter(|row| row[0] == "knee_medial_force");
+        own.map(|row| (row[1].clone(), row[4].parse::<f64>().unwrap())).collect::<Vec<_>>()
+    };
+    let (measured, predicted) = (curves("measured", &[]), curves("predicted", &["--predict"]));
+    let found = session_curves(&bench, "visit", "knee_medial_force");
+    assert!(found.iter().any(|(_, source, _)| source == "measured"), "a cycle on plates");
+    for (side, source, values) in found {
+        let largest = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let [same, other] = [&measured, &predicted].map(|all| {
+            let own: Vec<f64> = all.iter().filter(|(other, _)| *other == side).map(|(_, value)| *value).collect();
+            let far = |cycle: &[f64]| (largest(cycle) - largest(&values)).abs();
+            own.chunks(values.len()).map(far).fold(f64::INFINITY, f64::min)
+        });
+        println!("{side} {source}: {same:.4} from measured, {other:.4} from predicted forces [BW]");
+        let [near, far] = if source == "measured" { [same, other] } else { [other, same] };
+        assert!(near < 0.01 && near < far, "{side} {source}: {near} {far}");
+    }
+
+    // Without muscles there are none, and nothing says so.
+    bench.run(&[&["session", "Ann", "-o", "plain", "--quiet", "--"], &person[..]].concat()).done();
+    let plain = fs::read_to_string(bench.folder.join("plain/summary.json")).unwrap();
+    assert!(!plain.contains("contact_loads"));
+    assert!(session_curves(&bench, "plain", "knee_medial_force").is_empty());
+}
+
 #[test]
 fn without_the_option_nothing_is_computed_and_a_model_says_that_it_could() {
     let bench = with_demo("muscles_not_asked_for");

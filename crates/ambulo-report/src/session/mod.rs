@@ -13,11 +13,11 @@
 //! Equations and rules: `ambulo::study::session`. Columns: docs/SESSION.md.
 
 mod differences;
-mod knee_adduction;
 mod norms;
 mod page;
 pub(crate) mod quantities;
 mod reference_group;
+mod stance_loads;
 mod summary;
 mod tables;
 mod trial;
@@ -31,7 +31,7 @@ pub use tables::session_from_files;
 pub use trial::{ComputedTrial, SessionTrial};
 
 pub(crate) use norms::Norms;
-pub(crate) use quantities::{ANGLES, KINETICS, SessionQuantity, all};
+pub(crate) use quantities::{ANGLES, CONTACT, KINETICS, SessionQuantity, all};
 
 use crate::figures::FigureError;
 use ambulo::analysis::activity::ActivityKind;
@@ -83,7 +83,8 @@ impl Session {
         session.summary.speed_m_s = speeds(|trial| trial.speed_m_s);
         session.summary.speed_dimensionless = speeds(|trial| trial.speed_dimensionless);
         session.summary.times_and_distances = session.times(&computed);
-        session.summary.knee_adduction_moment = knee_adduction::knee_adduction(&session);
+        session.summary.knee_adduction_moment = stance_loads::knee_adduction(&session);
+        session.summary.contact_loads = stance_loads::contact_loads(&session);
         session.summary.trials = trials.iter().enumerate().map(|(k, trial)| session.trial_summary(k, trial)).collect();
         session.summary.excluded = session.excluded();
         session.summary.representative = session.representative_summary();

@@ -21,6 +21,11 @@ impl SessionQuantity {
         const UNKNOWN: Wording = Wording { title: "", unit: "", directions: [""; 2] };
         match self.id {
             FOOT_PROGRESSION => PROGRESSION,
+            "hip_contact_force" => load("Hip contact force", ["", ""]),
+            "knee_contact_force" => load("Knee contact force", ["", ""]),
+            "ankle_contact_force" => load("Ankle contact force", ["", ""]),
+            "knee_medial_force" => load("Knee force, medial", PRESSED),
+            "knee_lateral_force" => load("Knee force, lateral", PRESSED),
             // The words stand along the ordinate of a small panel.
             "hip_rotation_moment" | "knee_rotation_moment" | "ankle_rotation_moment" => {
                 Wording { directions: ["external", "internal"], ..wording(self.id).unwrap_or(UNKNOWN) }
@@ -34,6 +39,13 @@ impl SessionQuantity {
     pub fn label(self) -> String {
         self.wording().title.to_owned()
     }
+}
+
+/// Signs of the force on a condyle.
+const PRESSED: [&str; 2] = ["compression", "lift-off"];
+
+const fn load(title: &'static str, directions: [&'static str; 2]) -> Wording {
+    Wording { title, unit: "BW", directions }
 }
 
 const fn of(id: &'static str, low: f64, high: f64) -> SessionQuantity {
@@ -78,9 +90,18 @@ pub(crate) const KINETICS: [SessionQuantity; 15] = [
     of("ground_force_lateral", -0.2, 0.2),
 ];
 
+/// Loads of joints with the forces of the muscles [body weights], three in a row.
+pub(crate) const CONTACT: [SessionQuantity; 5] = [
+    of("hip_contact_force", 0.0, 8.0),
+    of("knee_contact_force", 0.0, 8.0),
+    of("ankle_contact_force", 0.0, 8.0),
+    of("knee_medial_force", -1.0, 5.0),
+    of("knee_lateral_force", -1.0, 5.0),
+];
+
 /// All quantities, in the order of files and tables.
 pub fn all() -> impl Iterator<Item = SessionQuantity> {
-    ANGLES.into_iter().chain(KINETICS)
+    ANGLES.into_iter().chain(KINETICS).chain(CONTACT)
 }
 
 /// The quantity with this name.

@@ -175,6 +175,10 @@ pub struct SessionSummary {
     /// External knee adduction moment over the stances of these cycles: `first_peak`, `second_peak`, `impulse`.
     #[serde(default)]
     pub knee_adduction_moment: Vec<QuantitySummary>,
+    /// With muscles, what joints carry over the stances of these cycles: `first_peak`, `second_peak` and `impulse` of
+    /// `hip`, `knee`, `ankle`, `knee_medial` and `knee_lateral`; empty without muscles.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_loads: Vec<QuantitySummary>,
     /// The reference group of the session; `null` if there is none.
     pub(crate) reference: Option<ReferenceSummary>,
     /// Why it is not compared.

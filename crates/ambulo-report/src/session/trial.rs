@@ -9,7 +9,7 @@ use ambulo::analysis::{Analysis, Cycle, Stride, foot_progression, over_cycle};
 use ambulo::model::Side;
 use ambulo::study::session::{CycleForces, SessionCycle, TrialFacts};
 use ambulo::study::{Outcome, PredictedGround, QualityState};
-use ambulo_results::{Convention, ConventionSummary};
+use ambulo_results::{Convention, ConventionSummary, contact_rows};
 use std::collections::BTreeMap;
 
 /// A measured stance belongs to a cycle if both its ends differ by less than this share of the cycle.
@@ -76,6 +76,7 @@ impl ComputedTrial {
             let in_degrees = |angles: Vec<f64>| angles.into_iter().map(f64::to_degrees).collect();
             let progression = progression.filter(|_| !is_foot_unmeasured(outcome, cycle.side));
             curves.extend(progression.map(|angles| (FOOT_PROGRESSION.to_owned(), in_degrees(angles))));
+            curves.extend(contact_curves(outcome, cycle, forces));
             session_cycle(cycle, forces, curves)
         });
         let cycles: Vec<SessionCycle> = cycles.collect();
@@ -102,6 +103,18 @@ impl ComputedTrial {
             convention,
         }
     }
+}
+
+/// Loads of the joints of the leg over a cycle, from the forces that its other curves are from.
+fn contact_curves(outcome: &Outcome, cycle: &Cycle, forces: CycleForces) -> Vec<(String, Vec<f64>)> {
+    let of_source = outcome.muscles.as_ref().and_then(|muscles| match forces {
+        CycleForces::None => None,
+        CycleForces::Predicted => Some((&outcome.analysis, &muscles.loads)),
+        CycleForces::Measured => outcome.prediction.as_ref()?.measured.as_ref().zip(muscles.measured_loads.as_ref()),
+    });
+    let Some((analysis, loads)) = of_source else { return Vec::new() };
+    let rows = contact_rows(&outcome.body, analysis, loads, cycle);
+    rows.into_iter().map(|row| (row.quantity, row.values)).collect()
 }
 
 /// Whether the direction of a foot is unknown, because a joint of its leg is not measured.

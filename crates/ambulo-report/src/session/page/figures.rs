@@ -1,6 +1,6 @@
 //! The figures of the page: all cycles, means, representative cycles, the profile, before and after.
 
-use super::super::{ANGLES, ComparedSession, KINETICS, Session, SessionQuantity};
+use super::super::{ANGLES, CONTACT, ComparedSession, KINETICS, Session, SessionQuantity};
 use crate::figures::{
     LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionFigure, SessionPanel, SessionSample,
 };
@@ -13,33 +13,36 @@ const CYCLE_WIDTH: f64 = 0.7;
 /// Dots of a line of predicted forces, in points.
 const DOTTED: [f64; 2] = [0.9, 1.3];
 
-/// Angles, or moments, powers and ground forces.
+/// Angles; moments, powers and ground forces; or loads of the joints with muscles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     Angles,
     Kinetics,
+    Contact,
 }
 
 impl Part {
-    pub(super) const ALL: [Part; 2] = [Part::Angles, Part::Kinetics];
+    pub(super) const ALL: [Part; 3] = [Part::Angles, Part::Kinetics, Part::Contact];
 
     fn words(self) -> &'static str {
         match self {
             Part::Angles => "Joint angles",
             Part::Kinetics => "Joint moments, powers and ground forces",
+            Part::Contact => "Joint contact loads",
         }
     }
 
-    fn of<T>(self, angles: T, kinetics: T) -> T {
+    fn of<T>(self, [angles, kinetics, contact]: [T; 3]) -> T {
         match self {
             Part::Angles => angles,
             Part::Kinetics => kinetics,
+            Part::Contact => contact,
         }
     }
 
     /// The quantities that the session has, in the order of the panels.
     fn quantities(self, compared: &ComparedSession) -> Vec<SessionQuantity> {
-        let own = self.of(ANGLES.as_slice(), KINETICS.as_slice());
+        let own = self.of([ANGLES.as_slice(), KINETICS.as_slice(), CONTACT.as_slice()]);
         compared.shown().into_iter().filter(|quantity| own.contains(quantity)).collect()
     }
 }
@@ -120,7 +123,7 @@ impl Figures<'_> {
             (SessionSample::Line(self.cycle_look(Side::Right, false)), "right".to_owned()),
             (SessionSample::Line(self.cycle_look(Side::Left, false)), "left".to_owned()),
         ];
-        if part == Part::Kinetics {
+        if part != Part::Angles {
             let has_predicted = self.session().cycles.iter().any(|cycle| cycle.forces == CycleForces::Predicted);
             let dotted = (SessionSample::Line(self.cycle_look(Side::Right, true)), "predicted forces".to_owned());
             legend.extend(has_predicted.then_some(dotted));
@@ -146,7 +149,7 @@ impl Figures<'_> {
                 ..self.panel(quantity)
             }
         });
-        let name = part.of("all-angles", "all-kinetics");
+        let name = part.of(["all-angles", "all-kinetics", "all-contact"]);
         let title = format!("{}: all cycles", part.words());
         let figure = self.figure(name, title, self.caption(), panels.collect())?;
         Some(self.with_sides(figure, part))
@@ -165,7 +168,7 @@ impl Figures<'_> {
             }
             panel
         });
-        let name = part.of("mean-angles", "mean-kinetics");
+        let name = part.of(["mean-angles", "mean-kinetics", "mean-contact"]);
         let title = format!("{}: mean ± standard deviation", part.words());
         self.figure(name, title, self.caption(), panels.collect())
     }
@@ -192,7 +195,7 @@ impl Figures<'_> {
             Some(format!("{side}: {}, cycle {}", self.session().name(cycle.trial), cycle.number))
         };
         let caption = Side::BOTH.into_iter().filter_map(named).collect::<Vec<_>>().join("; ");
-        let name = part.of("representative-angles", "representative-kinetics");
+        let name = part.of(["representative-angles", "representative-kinetics", "representative-contact"]);
         let title = format!("{}: representative cycles", part.words());
         let figure = self.figure(name, title, caption, panels.collect())?;
         let mut legend: Vec<(SessionSample, String)> =
@@ -221,6 +224,8 @@ impl Figures<'_> {
             (Part::Angles, Side::Left) => "change-angles-left",
             (Part::Kinetics, Side::Right) => "change-kinetics-right",
             (Part::Kinetics, Side::Left) => "change-kinetics-left",
+            (Part::Contact, Side::Right) => "change-contact-right",
+            (Part::Contact, Side::Left) => "change-contact-left",
         };
         let title = format!("{}, {side} side: before and after, mean ± standard deviation", part.words());
         self.figure(name, title, self.change_caption(before), panels.collect())

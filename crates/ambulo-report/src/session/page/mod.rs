@@ -36,6 +36,7 @@ pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
     body += &before_and_after(&figures)?;
     body += &section(&sections::times(compared));
     body += &section(&sections::knee_adduction(&compared.session));
+    body += &section(&sections::contact_loads(&compared.session));
     body += &section(&sections::deviations(compared));
     body += &section(&sections::sides(compared));
     body += &part("Consistency: all cycles", Part::ALL.map(|part| figures.consistency(part)))?;
@@ -146,8 +147,8 @@ fn glance(summary: &SessionSummary, figures: &Figures<'_>) -> Result<String, Fig
     Ok(html + &picture(&figure.svg()?, "Movement analysis profile"))
 }
 
-/// The figures of angles and of kinetics under one title.
-fn part(title: &str, drawn: [Option<SessionFigure>; 2]) -> Result<String, FigureError> {
+/// The figures of angles, of kinetics and of contact loads under one title.
+fn part(title: &str, drawn: [Option<SessionFigure>; 3]) -> Result<String, FigureError> {
     let mut html = String::new();
     for figure in drawn.into_iter().flatten() {
         html += &picture(&figure.svg()?, &figure.title);

@@ -5,7 +5,7 @@ use super::super::{ComparedSession, Session, all};
 use ambulo::model::Side;
 use ambulo::study::session::{CycleForces, deviation, pooled, side_difference};
 use ambulo::study::validation::{Section, TextTable, number};
-use ambulo_results::SpreadSummary;
+use ambulo_results::{QuantitySummary, SpreadSummary};
 
 const NAMES: [(&str, &str, usize); 16] = [
     ("speed", "Speed", 2),
@@ -72,8 +72,25 @@ pub(super) fn times(compared: &ComparedSession) -> Section {
 }
 
 pub(super) fn knee_adduction(session: &Session) -> Section {
+    let note = "External moment in stance, mean ± standard deviation, and the number of cycles: the largest values in \
+        the first and in the second half, and the area of the positive part. Sides whose forces have different \
+        sources are neither pooled nor compared.";
+    over_stances("Knee adduction moment", &session.summary.knee_adduction_moment, note)
+}
+
+pub(super) fn contact_loads(session: &Session) -> Section {
+    let note = "Size of the force in hip, knee and ankle with the forces of the muscles, and what each condyle of the \
+        knee carries along the shank: the largest values in the first and in the second half of stance, and the area \
+        below the curve, as mean ± standard deviation, and the number of cycles. These are estimates of the model, \
+        not measured loads (docs/MUSCLES.md). Sides whose forces have different sources are neither pooled nor \
+        compared.";
+    over_stances("Joint contact loads", &session.summary.contact_loads, note)
+}
+
+/// Loads over the stances of both sides.
+fn over_stances(title: &'static str, quantities: &[QuantitySummary], note: &str) -> Section {
     let mut table = TextTable::new(&["", "unit", "right", "left", "both", "symmetry %", "forces"]);
-    for found in &session.summary.knee_adduction_moment {
+    for found in quantities {
         let cell = |spread_of: &Option<SpreadSummary>| {
             spread_of.map_or(String::new(), |found| spread(found.mean, found.sd, found.strides, 2))
         };
@@ -82,10 +99,7 @@ pub(super) fn knee_adduction(session: &Session) -> Section {
         let name = found.quantity.replace('_', " ");
         table.row([name, found.unit.clone(), right, left, both, symmetry, found.source_words()]);
     }
-    let note = "External moment in stance, mean ± standard deviation, and the number of cycles: the largest values in \
-        the first and in the second half, and the area of the positive part. Sides whose forces have different \
-        sources are neither pooled nor compared.";
-    Section { title: "Knee adduction moment", table, note: note.to_owned() }
+    Section { title, table, note: note.to_owned() }
 }
 
 pub(super) fn deviations(compared: &ComparedSession) -> Section {

@@ -73,8 +73,9 @@ pub struct SessionCycle {
     pub curves: BTreeMap<String, Vec<f64>>,
 }
 
-/// Whether a quantity is computed from ground forces: moments, powers and ground forces.
+/// Whether a quantity is computed from ground forces: moments, powers, ground forces and loads of joints.
 #[must_use]
 pub fn depends_on_forces(quantity: &str) -> bool {
-    quantity.ends_with("_moment") || quantity.ends_with("_power") || quantity.starts_with("ground_force")
+    let is_force = quantity.ends_with("_force") || quantity.starts_with("ground_force");
+    quantity.ends_with("_moment") || quantity.ends_with("_power") || is_force
 }
