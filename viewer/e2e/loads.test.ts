@@ -67,14 +67,13 @@ test("muscles are on the figure, and what the joints carry below it", async () =
   await withPage("muscles", async ({ page }) => {
     const muscles = page.getByRole("button", { name: "Muscles", exact: true });
     assert.equal(await muscles.getAttribute("aria-pressed"), "true");
-    const shown = await picture(page);
+    // The still for paper has no muscles, so the canvas itself is compared.
+    const drawn = (): Promise<Buffer> => page.locator("canvas[role=img]").screenshot();
+    const shown = await drawn();
     await muscles.click();
     assert.equal(await muscles.getAttribute("aria-pressed"), "false");
-    assert.notDeepEqual(await picture(page), shown);
-    for (const group of ["Joint contact loads", "Muscles"]) {
-      assert.equal(await page.getByRole("heading", { name: group, exact: true }).count(), 1, group);
-    }
-    await page.getByRole("heading", { name: "Joint contact loads", exact: true }).scrollIntoViewIfNeeded();
-    assert.ok((await page.locator("#group-contact ~ .grid figure").count()) >= 8);
+    assert.ok(!(await drawn()).equals(shown), "muscles are drawn");
+    assert.equal(await page.locator("#group-contact").textContent(), "Joint contact loads");
+    assert.equal(await page.locator("#group-contact ~ .grid figure").count(), 8);
   });
 });
