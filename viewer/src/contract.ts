@@ -277,6 +277,10 @@ export type Activity = {
  */
 measured: Array<MeanCurve>, 
 /**
+ * Times in which this electromyogram is on [% of the cycle].
+ */
+recorded: Array<ActiveTimes>, 
+/**
  * Times in which the muscles of healthy adults are usually active [% of the cycle]; empty if unknown.
  */
 usual: Array<[number, number]>, 
@@ -284,6 +288,16 @@ usual: Array<[number, number]>,
  * Agreement of activation and electromyogram, in a sentence.
  */
 agreement: string | null, };
+
+export type ActiveTimes = { 
+/**
+ * Whose cycles.
+ */
+side: PageSide, 
+/**
+ * From and to [% of the cycle].
+ */
+times: Array<[number, number]>, };
 
 export type CycleCurve = { 
 /**

@@ -47,10 +47,11 @@ export interface Shade {
   readonly to: number;
 }
 
-/** A time in which muscles are usually active [% of the cycle]. */
-export interface Usual {
+/** A time in which muscles are active [% of the cycle]: usually, or in the electromyogram of a side. */
+export interface ActiveTime {
   readonly from: number;
   readonly to: number;
+  readonly side: PageSide | null;
 }
 
 /** Everything drawn in a panel, in the panel's units, back to front. */
@@ -62,7 +63,7 @@ export interface Drawing {
   readonly shades: readonly Shade[];
   readonly lines: readonly Line[];
   readonly marks: readonly Mark[];
-  readonly usual: readonly Usual[];
+  readonly active: readonly ActiveTime[];
 }
 
 /** One session's data for a panel. */
@@ -110,14 +111,18 @@ export function drawing(sources: readonly PanelSource[], numbers: Numbers, choic
     shades: parts.flatMap((one) => one.shades),
     lines: inOrder(lines, (line) => ORDER.indexOf(line.role)),
     marks: parts.flatMap((one) => one.marks).filter(shown),
-    usual: axis === "cycle" ? usualTimes(sources) : [],
+    active: axis === "cycle" ? activeTimes(sources).filter(shown) : [],
   };
 }
 
-/** Usual times of activity; they are the same in every session. */
-function usualTimes(sources: readonly PanelSource[]): Usual[] {
-  const known = sources.map(({ panel }) => panel.activity?.usual ?? []).find((usual) => usual.length > 0);
-  return (known ?? []).map(([from, to]) => ({ from, to }));
+/** Usual times of activity, which are the same in every session, and those of the electromyograms of a single session. */
+function activeTimes(sources: readonly PanelSource[]): ActiveTime[] {
+  const activities = sources.flatMap(({ panel }) => panel.activity ?? []);
+  const usual = activities.map((activity) => activity.usual).find((times) => times.length > 0) ?? [];
+  const recorded = sources.length === 1 ? activities.flatMap((activity) => activity.recorded) : [];
+  return [{ side: null, times: usual }, ...recorded].flatMap(({ side, times }) =>
+    times.map(([from, to]) => ({ from, to, side })),
+  );
 }
 
 /** Back to front. */

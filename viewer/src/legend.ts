@@ -68,7 +68,10 @@ function overCycle({ page }: Context, panels: Panels): (Node | string)[][] {
     ...(measured
       ? [[lineSample(colour("measured"), [], pixels(STYLE.lines_pt.axis)), "measured (electromyogram)"]]
       : []),
-    ...(usual ? [[areaSample(colour("quiet"), 1), "bars above: usually active"]] : []),
+    ...(usual ? [[areaSample(colour("quiet"), 1), "grey bars: usually active"]] : []),
+    ...(alone && activities.some((activity) => activity.recorded.length > 0)
+      ? [[areaSample(colour("right"), 1), areaSample(colour("left"), 1), "bars: electromyogram is on"]]
+      : []),
     ["ticks below: foot off"],
   ];
 }

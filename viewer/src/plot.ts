@@ -1,13 +1,13 @@
 import uPlot from "uplot";
-import type { Area, Axis, Drawing, Line } from "./drawing";
+import type { ActiveTime, Area, Axis, Drawing, Line } from "./drawing";
 import { roundValues, shown } from "./format";
 import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
 import { colour, STYLE } from "./style";
 
 /** Size of the axes [CSS px]. */
 export const ROOM = { left: 32, bottom: 17, top: 5, right: 13 } as const;
-/** Height of the bars of usual activity at the upper edge [CSS px]. */
-export const BAR = 4;
+/** Height of the bars of activity at the upper edge [CSS px]. */
+const BAR = 4;
 /** Height of the ticks for foot strikes and foot offs [CSS px]. */
 export const MARK = 9;
 
@@ -182,7 +182,13 @@ export function runs(area: { readonly low: Float64Array; readonly high: Float64A
   return found;
 }
 
-/** Draws the zero line, the axes, the bars of usual activity and the ticks for foot strikes and foot offs. */
+/** Colour of a bar of activity, its height, and its distance from the upper edge [CSS px]: usual times, right, left. */
+export function barLook({ side }: ActiveTime): { readonly fill: string; readonly high: number; readonly down: number } {
+  const row = side === null ? 0 : side === "r" ? 1 : 2;
+  return { fill: colour((["quiet", "right", "left"] as const)[row] ?? "quiet"), high: BAR, down: row * (BAR + 1) };
+}
+
+/** Draws the zero line, the axes, the bars of activity and the ticks for foot strikes and foot offs. */
 function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   const { ctx } = chart;
   const { left, top, width, height } = chart.bbox;
@@ -199,10 +205,11 @@ function drawFrame(chart: uPlot, drawing: Drawing, scheme: Scheme): void {
   strokeLine(ctx, left, top, left, top + height);
   strokeLine(ctx, left, top + height, left + width, top + height);
   ctx.lineWidth = pixels(STYLE.lines_pt.tick) * ratio;
-  ctx.fillStyle = colour("quiet");
-  for (const { from, to } of drawing.usual) {
-    const x = chart.valToPos(from, "x", true);
-    ctx.fillRect(x, top, chart.valToPos(to, "x", true) - x, BAR * ratio);
+  for (const time of drawing.active) {
+    const { fill, high, down } = barLook(time);
+    const x = chart.valToPos(time.from, "x", true);
+    ctx.fillStyle = fill;
+    ctx.fillRect(x, top + down * ratio, chart.valToPos(time.to, "x", true) - x, high * ratio);
   }
   for (const mark of drawing.marks) {
     const look = sideLook(mark, scheme);

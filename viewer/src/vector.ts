@@ -1,7 +1,7 @@
 import type { Area, Drawing, Line } from "./drawing";
 import { svgElement } from "./element";
 import { areaLook, lineLook, pixels, type Scheme, sideLook } from "./look";
-import { BAR, MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
+import { barLook, MARK, ROOM, runs, ticksOf, xWords, yWords } from "./plot";
 import { colour, STYLE } from "./style";
 
 /** Positions of values in a picture [CSS px]. */
@@ -123,15 +123,12 @@ function axes(frame: Frame): SVGElement[] {
 }
 
 function bars(drawing: Drawing, frame: Frame): SVGElement[] {
-  return drawing.usual.map(({ from, to }) =>
-    svgElement("rect", {
-      x: short(frame.x(from)),
-      y: frame.top,
-      width: short(frame.x(to) - frame.x(from)),
-      height: BAR,
-      fill: colour("quiet"),
-    }),
-  );
+  return drawing.active.map((time) => {
+    const { fill, high, down } = barLook(time);
+    const x = short(frame.x(time.from));
+    const width = short(frame.x(time.to) - frame.x(time.from));
+    return svgElement("rect", { x, y: frame.top + down, width, height: high, fill });
+  });
 }
 
 function marks(drawing: Drawing, frame: Frame, scheme: Scheme): SVGElement[] {

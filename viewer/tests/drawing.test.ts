@@ -228,6 +228,7 @@ async function active(...variants: Variant[]): Promise<{ sources: PanelSource[];
       ...one.panel,
       activity: {
         measured,
+        recorded: [{ side: "r" as const, times: [[5, 60]] as [number, number][] }],
         usual: [
           [0, 17],
           [92, 100],
@@ -247,17 +248,19 @@ test("electromyograms and usual times are drawn over the cycle of one session", 
     measured.map(({ name, side, y }) => [name, side, Math.round(100 * (y[50] ?? 0))]),
     [["right, electromyogram, mean of 3", "r", 50]],
   );
-  assert.deepEqual(now?.usual, [
-    { from: 0, to: 17 },
-    { from: 92, to: 100 },
+  assert.deepEqual(now?.active, [
+    { from: 0, to: 17, side: null },
+    { from: 92, to: 100, side: null },
+    { from: 5, to: 60, side: "r" },
   ]);
+  assert.equal(drawing(sources, numbers, { axis: "cycle", sides: ["l"] })?.active.length, 2);
   assert.equal(count(drawing(sources, numbers, { axis: "cycle", sides: ["l"] }), "measured"), 0);
-  assert.deepEqual(drawing(sources, numbers, { ...BOTH, axis: "time" })?.usual, []);
+  assert.deepEqual(drawing(sources, numbers, { ...BOTH, axis: "time" })?.active, []);
 });
 
 test("a comparison has usual times but no electromyograms over the cycle", async () => {
   const { sources, numbers } = await active(WHOLE, { ...WHOLE, name: "two", scale: 1.2 });
   const now = drawing(sources, numbers, BOTH);
   assert.equal(count(now, "measured"), 0);
-  assert.equal(now?.usual.length, 2);
+  assert.equal(now?.active.length, 2);
 });

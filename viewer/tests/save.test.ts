@@ -22,7 +22,7 @@ const drawn = (...lines: Line[]): Drawing => ({
   areas: [],
   shades: [],
   marks: [],
-  usual: [],
+  active: [],
   lines,
 });
 

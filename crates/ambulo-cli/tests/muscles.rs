@@ -87,10 +87,9 @@ fn session_curves(bench: &Workbench, folder: &str, quantity: &str) -> Vec<(Strin
 fn a_session_pools_what_joints_carry_from_the_forces_of_each_cycle() {
     let bench = with_demo("muscles_of_a_session");
     fs::create_dir_all(bench.folder.join("Ann")).unwrap();
-    ["walk", "standing"].map(|name| {
-        let file = format!("{name}.c3d");
-        fs::copy(bench.folder.join("demo/input").join(&file), bench.folder.join("Ann").join(&file)).unwrap();
-    });
+    for file in ["walk.c3d", "standing.c3d"] {
+        fs::copy(bench.folder.join("demo/input").join(file), bench.folder.join("Ann").join(file)).unwrap();
+    }
     let person = ["--mass", "75", "--height", "1.75"];
     bench.run(&[&["session", "Ann", "-o", "visit", "--quiet", "--", "--muscles"], &person[..]].concat()).done();
     let summary: Value = serde_json::from_slice(&fs::read(bench.folder.join("visit/summary.json")).unwrap()).unwrap();

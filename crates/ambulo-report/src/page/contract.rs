@@ -270,6 +270,8 @@ pub struct Panel {
 pub(crate) struct Activity {
     /// Envelope of the electromyogram, mean over the cycles of a side.
     pub measured: Vec<MeanCurve>,
+    /// Times in which this electromyogram is on [% of the cycle].
+    pub recorded: Vec<ActiveTimes>,
     /// Times in which the muscles of healthy adults are usually active [% of the cycle]; empty if unknown.
     pub usual: Vec<[f64; 2]>,
     /// Agreement of activation and electromyogram, in a sentence.
@@ -304,6 +306,16 @@ pub(crate) struct MeanCurve {
     pub sd: Option<Series>,
     /// Mean foot off [%].
     pub foot_off_percent: Option<f64>,
+}
+
+/// When the muscles of one leg are on.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
+pub(crate) struct ActiveTimes {
+    /// Whose cycles.
+    pub side: PageSide,
+    /// From and to [% of the cycle].
+    pub times: Vec<[f64; 2]>,
 }
 
 /// Normative band at this speed.

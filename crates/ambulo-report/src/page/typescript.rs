@@ -39,6 +39,7 @@ fn curves(config: &Config) -> Vec<String> {
         Group::decl(config),
         Panel::decl(config),
         Activity::decl(config),
+        ActiveTimes::decl(config),
         CycleCurve::decl(config),
         MeanCurve::decl(config),
         Band::decl(config),

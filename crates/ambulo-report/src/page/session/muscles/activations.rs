@@ -2,11 +2,16 @@
 //!
 //! A panel shows the mean over the muscles of its group, each with the same weight.
 
-use super::muscle_groups::{GROUPS, MuscleColumn, MuscleGroup};
-use super::side_curves::{Head, SideCurve, over_the_cycle, panel, traces};
+use super::muscle_groups::{GROUPS, MuscleColumn, MuscleGroup, active_times};
+use super::side_curves::{Head, SideCurve, SideCurves, over_the_cycle, panel, traces};
 use crate::page::block::Block;
-use crate::page::contract::{Activity, Group, Origin, Panel, Role};
+use crate::page::contract::{ActiveTimes, Activity, Group, Origin, Panel, Role};
+use crate::page::session::curves::{over_cycles, statistics};
 use crate::page::session::results::Results;
+use crate::page::session::sides;
+use ambulo::model::Side;
+use ambulo::muscles::emg::{OnOffSettings, on_off};
+use ambulo::study::session::CurveStatistics;
 use ambulo_formats::table::Table;
 use ambulo_results::{EMG, EmgSummary, MUSCLES};
 
@@ -26,7 +31,8 @@ pub(super) fn group(results: &Results, block: &mut Block) -> Option<Group> {
 /// What the curves are.
 fn note(results: &Results) -> String {
     let measured = if results.emg.is_some() {
-        " Thin black lines: envelope of the electromyogram, divided by its 99th percentile."
+        " Thin black lines: envelope of the electromyogram, divided by its 99th percentile. Bars of the colours of the \
+         sides: where its mean is above a fifth of its maximum for at least 5 % of the cycle."
     } else {
         ""
     };
@@ -35,7 +41,7 @@ fn note(results: &Results) -> String {
         String::new()
     } else {
         format!(
-            " Bars above: where the electromyogram of at least half of ten adults, at their own speed, is on \
+            " Grey bars: where the electromyogram of at least half of ten adults, at their own speed, is on \
              (Schreiber and Moissenet 2019: {}).",
             known.join(", ")
         )
@@ -63,6 +69,7 @@ fn panel_of(results: &Results, table: &Table, group: &MuscleGroup, block: &mut B
     let mut panel = panel(results, &head, &curves, block);
     let mut activity = Activity {
         measured: Vec::new(),
+        recorded: Vec::new(),
         usual: group.usual().map(|(_, times)| times).unwrap_or_default(),
         agreement: agreement(results, group),
     };
@@ -70,10 +77,22 @@ fn panel_of(results: &Results, table: &Table, group: &MuscleGroup, block: &mut B
         let envelopes = group.columns(emg, "_emg").as_ref().map(|columns| mean(columns, EMG));
         panel.traces.extend(traces(results, &envelopes, Role::Measured, block));
         activity.measured = over_the_cycle(results, &envelopes, block).1;
+        activity.recorded = recorded(results, &envelopes);
     }
     let nothing = activity.measured.is_empty() && activity.usual.is_empty() && activity.agreement.is_none();
     panel.activity = (!nothing).then_some(activity);
     Some(panel)
+}
+
+/// When the mean envelope of each leg is on, by the rule of the usual times.
+fn recorded(results: &Results, envelopes: &SideCurves) -> Vec<ActiveTimes> {
+    let of_side = |side: Side| {
+        let SideCurve { values, .. } = envelopes[side].as_ref()?;
+        let CurveStatistics { mean, .. } = statistics(&over_cycles(results, side, values, None))?;
+        let times = active_times(&on_off(&mean, OnOffSettings::default()));
+        Some(ActiveTimes { side: sides::page(side), times })
+    };
+    Side::BOTH.into_iter().filter_map(of_side).collect()
 }
 
 /// The mean of columns, instant by instant; `None` without columns.

@@ -66,9 +66,12 @@ impl MuscleGroup {
     pub(super) fn usual(&self) -> Option<(AnatomicalMuscle, Vec<[f64; 2]>)> {
         let timing = self.muscles.iter().find_map(|muscle| normal_timing(*muscle))?;
         let on = timing.is_on(USUAL_SHARE);
-        // A burst across the foot strike is drawn at both ends of the cycle.
-        let parts = |[from, to]: [f64; 2]| if from < to { vec![[from, to]] } else { vec![[0.0, to], [from, 100.0]] };
-        let times = bursts(&on).into_iter().flat_map(parts).filter(|[from, to]| from < to).collect();
-        (on.len() == PERCENTS).then_some((timing.muscle, times))
+        (on.len() == PERCENTS).then(|| (timing.muscle, active_times(&on)))
     }
+}
+
+/// Bursts to draw, from and to [% of the cycle]: one across the foot strike is drawn at both ends of the cycle.
+pub(super) fn active_times(on: &[bool]) -> Vec<[f64; 2]> {
+    let parts = |[from, to]: [f64; 2]| if from < to { vec![[from, to]] } else { vec![[0.0, to], [from, 100.0]] };
+    bursts(on).into_iter().flat_map(parts).filter(|[from, to]| from < to).collect()
 }
