@@ -127,8 +127,8 @@ fn ground_rows(model: &Model, analysis: &Analysis, cycle: &Cycle, grid: TimeGrid
         .collect()
 }
 
-/// Loads of the joints with the tensions of the muscles: size of the force at hip, knee and ankle, and the shares of the
-/// condyles along the shank, with their names in [`ambulo::study::Outcome::contact_load_stances`].
+/// Loads of the joints with the tensions of the muscles: size of the force at hip, knee and ankle, and the shares of
+/// the condyles along the shank, with their names in [`ambulo::study::Outcome::contact_load_stances`].
 pub const CONTACT_LOADS: [(&str, &str); 5] = [
     ("hip", "hip_contact_force"),
     ("knee", "knee_contact_force"),

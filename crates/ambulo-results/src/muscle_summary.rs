@@ -52,8 +52,8 @@ pub struct ReserveSummary {
     pub largest: f64,
     /// When [s].
     pub at_s: f64,
-    /// Its share of the largest generalised force of the coordinate, or of 0.05 N.m for each kilogram of body mass where
-    /// that is larger.
+    /// Its share of the largest generalised force of the coordinate, or of 0.05 N.m for each kilogram of body mass
+    /// where that is larger.
     pub share: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Loads of a session over the stances of the cycles that count: peaks and impulses of the external knee adduction moment
-//! and, with muscles, of what the joints carry.
+//! Loads of a session over the stances of the cycles that count: peaks and impulses of the external knee adduction
+//! moment and, with muscles, of what the joints carry.
 
 use super::Session;
 use ambulo::analysis::stance_load;
