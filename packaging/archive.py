@@ -67,7 +67,7 @@ def checksums(folder: Path) -> None:
 def main(target: str, program: Path, folder: Path) -> None:
     components = Components(ROOT, "ambulo-cli", target)
     name = f"ambulo-{components.version}-{target}"
-    bill = (json.dumps(components.cyclonedx(), indent=1, ensure_ascii=False) + "\n").encode()
+    bill = (json.dumps(components.cyclonedx(program.read_bytes()), indent=1, ensure_ascii=False) + "\n").encode()
     files = {f"{name}/{document}": (ROOT / document).read_bytes() for document in DOCUMENTS}
     files[f"{name}/THIRD-PARTY.txt"] = components.licences().encode()
     files[f"{name}/ambulo.cdx.json"] = bill

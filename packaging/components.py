@@ -9,12 +9,14 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import json
 import os
 import re
 import subprocess
 import sys
 import tomllib
+import uuid
 from pathlib import Path
 
 # A line of `cargo tree --prefix depth`: depth, name, version, and a path for our own packages.
@@ -23,9 +25,9 @@ LICENCE_FILE = re.compile(r"^(licen[cs]e|copying|notice|unlicense)", re.IGNORECA
 # Scripts that the report page contains, and the file with them and their licence texts.
 PAGE_SCRIPTS = ["three", "uplot"]
 PAGE_BUNDLE = "crates/ambulo-report/data/report/viewer.js"
-# Tables that the program contains under a licence of their own.
-DATA = ["crates/ambulo-walk/data/gait", "crates/ambulo/data/ground", "crates/ambulo-report/data/normative"]
-DATA_LICENCE = "CC-BY-SA-4.0"
+# Tables that the program contains under licences of their own, which the manifest of their crate states.
+DATA = ["crates/ambulo-walk/data/gait", "crates/ambulo/data/ground", "crates/ambulo-report/data/normative", "crates/ambulo-muscles/data"]
+LEGAL_TEXT = "https://creativecommons.org/licenses/{}/{}/legalcode"
 
 
 class Components:
@@ -42,7 +44,7 @@ class Components:
 
     def count(self) -> int:
         """Return how many components the program has, without itself."""
-        return len(self.cyclonedx()["components"])
+        return len(self.cyclonedx(b"")["components"])
 
     def _cargo(self, *words: str) -> str:
         command = [os.environ.get("CARGO", "cargo"), *words, "--locked"]
@@ -112,11 +114,24 @@ class Components:
     def _reference(key: tuple[str, str]) -> str:
         return f"pkg:cargo/{key[0]}@{key[1]}"
 
-    def cyclonedx(self) -> dict:
-        """Return the components as a CycloneDX 1.6 document. It has no time and no serial number: same program, same bytes."""
+    def expression(self) -> str:
+        """Return the licence of the whole program: that of each of our packages in it."""
+        own = [self._packages[key]["license"].split(" AND ") for key in self._needs if key[0].split("-")[0] == "ambulo"]
+        first, *others = list(dict.fromkeys(f"({self._own_licence()})" if " OR " in part else part for parts in own for part in parts))
+        return " AND ".join([first, *sorted(others)])
+
+    def _own_licence(self) -> str:
+        return tomllib.loads((self.root / "Cargo.toml").read_text("utf-8"))["workspace"]["package"]["license"]
+
+    def cyclonedx(self, program: bytes) -> dict:
+        """Return the components of a built program as a CycloneDX 1.6 document.
+
+        It has no time, and its serial number is the program's hash (a name-based UUID): same program, same bytes.
+        """
+        serial = uuid.uuid5(uuid.NAMESPACE_URL, f"sha256:{hashlib.sha256(program).hexdigest()}")
         root = next(key for key in self._needs if key[0] == self.package)
         own = self._package(root) | {"type": "application", "name": "ambulo"}
-        own["licenses"] = [{"expression": f"(MIT OR Apache-2.0) AND {DATA_LICENCE}"}]
+        own["licenses"] = [{"expression": self.expression()}]
         scripts, runtime = self._scripts(), self._runtime()
         dependencies = [
             {"ref": self._reference(key), "dependsOn": sorted(self._reference(need) for need in needs)}
@@ -131,6 +146,7 @@ class Components:
             "$schema": "http://cyclonedx.org/schema/bom-1.6.schema.json",
             "bomFormat": "CycloneDX",
             "specVersion": "1.6",
+            "serialNumber": serial.urn,
             "version": 1,
             "metadata": {"component": own, "properties": [{"name": "target", "value": self.target}]},
             "components": [self._package(key) for key in sorted(self._needs) if key != root] + scripts + runtime,
@@ -164,7 +180,9 @@ class Components:
 
     def _data(self, rule: str) -> str:
         """Return the heads of the data files with a licence of their own, which name their sources."""
-        heads = [f"{rule}\nTables under {DATA_LICENCE} (https://creativecommons.org/licenses/by-sa/4.0/legalcode), with their sources:"]
+        known = [part.removeprefix("CC-").lower().rsplit("-", 1) for part in self.expression().split(" AND ")[1:]]
+        texts = ", ".join(LEGAL_TEXT.format(*parts) for parts in known)
+        heads = [f"{rule}\nTables under Creative Commons licences ({texts}); each names its source and its licence:"]
         for path in sorted(path for folder in DATA for path in (self.root / folder).iterdir() if path.is_file()):
             lines = path.read_text("utf-8").splitlines()
             count = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))

@@ -1,9 +1,13 @@
-//! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`.
+//! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`, and
+//! crates for the registry of Rust: `cargo xtask dist --crates`.
 //!
 //! Builds the command in the profile `dist`, packs it with its licences and the list of its components
 //! (`packaging/archive.py`) into `target/archives`, and tries the archive (`packaging/trial.py`) if this machine can
 //! run it. Python packs: its standard library has archives, hashes and JSON, so this program needs no dependency for
 //! them.
+//!
+//! `--crates` packs every crate that is to be published and builds each from its own archive, in the order in which they
+//! need each other. Nothing is uploaded.
 
 use crate::python::interpreter;
 use crate::workspace;
@@ -11,7 +15,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const USAGE: &str = "usage: cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]";
+const USAGE: &str = "usage: cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG], or --crates";
+
+/// Members of the workspace that are not published: the Python module is a wheel, the automation is for contributors.
+const UNPUBLISHED: [&str; 3] = ["ambulo-py", "xtask", "xtask-measure"];
+/// Largest archive that the registry takes [bytes].
+const LARGEST_CRATE: u64 = 10 << 20;
 
 /// A machine that archives are made for.
 struct Target {
@@ -53,6 +62,9 @@ struct Request {
 }
 
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
+    if words == ["--crates"] {
+        return crates();
+    }
     let mut request = request(words)?;
     if let Some(tag) = &request.tag {
         let changes = fs::read_to_string(workspace::root().join("CHANGELOG.md")).map_err(|e| e.to_string())?;
@@ -111,6 +123,30 @@ fn usual_target() -> Result<&'static str, String> {
         _ => false,
     });
     target.map(|target| target.triple).ok_or_else(|| format!("no archive is made for {system} on {processor}\n{USAGE}"))
+}
+
+/// Packs all crates, builds each from its archive, and compares their sizes with what the registry takes.
+#[expect(clippy::print_stdout, reason = "the sizes are the command's result")]
+fn crates() -> Result<(), String> {
+    let left_out = UNPUBLISHED.iter().flat_map(|name| ["--exclude", name]);
+    finish(workspace::cargo().args(["package", "--workspace", "--locked"]).args(left_out))?;
+    let folder = workspace::target().join("package");
+    let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let ending = format!("-{}.crate", env!("CARGO_PKG_VERSION"));
+    let mut packed: Vec<(String, u64)> = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(|e| e.to_string())?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.ends_with(&ending) {
+            packed.push((name, entry.metadata().map_err(|e| e.to_string())?.len()));
+        }
+    }
+    packed.sort();
+    packed.iter().for_each(|(name, bytes)| println!("{name}: {:.2} MB", *bytes as f64 / 1e6));
+    match packed.iter().find(|(_, bytes)| *bytes > LARGEST_CRATE) {
+        Some((name, bytes)) => Err(format!("{name} has {bytes} bytes; the registry takes {LARGEST_CRATE} at most")),
+        None => Ok(()),
+    }
 }
 
 /// Builds, packs and tries one archive.
@@ -248,6 +284,102 @@ mod tests {
         let elsewhere = |target: &&Target| target.triple.starts_with("aarch64-unknown-linux") || target.is_windows();
         let tried: Vec<_> = TARGETS.iter().filter(elsewhere).map(|target| target.triple).collect();
         assert_eq!(targets_of("trial"), tried);
+    }
+
+    /// The manifests of all crates in `crates/`, with their names.
+    fn manifests() -> Vec<(String, String)> {
+        let folders = fs::read_dir(workspace::root().join("crates")).unwrap();
+        let names = folders.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut all: Vec<_> = names.map(|name| (read(&format!("crates/{name}/Cargo.toml")), name)).collect();
+        all.sort_by(|(_, a), (_, b)| a.cmp(b));
+        all.into_iter().map(|(manifest, name)| (name, manifest)).collect()
+    }
+
+    #[test]
+    fn every_crate_has_what_the_registry_asks_for() {
+        let workspace = read("Cargo.toml");
+        let own = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
+        let paths = workspace.lines().filter(|line| line.starts_with("ambulo"));
+        assert!(paths.clone().count() > 5 && paths.clone().all(|line| line.contains(&own)), "dependencies of our own");
+        let is_published = |manifest: &str| !manifest.contains("publish = false");
+        for (name, manifest) in manifests() {
+            assert_eq!(is_published(&manifest), !UNPUBLISHED.contains(&name.as_str()), "{name}");
+            for text in ["LICENSE-MIT", "LICENSE-APACHE"] {
+                assert_eq!(read(&format!("crates/{name}/{text}")), read(text), "{name}");
+            }
+            for key in ["description = ", "readme.workspace", "keywords.workspace", "categories.workspace"] {
+                assert!(!is_published(&manifest) || manifest.contains(key), "{name}: {key}");
+            }
+        }
+    }
+
+    /// The licences of tables under a folder, as their heads name them.
+    fn licences_of_tables(folder: &Path, found: &mut Vec<&'static str>) {
+        const KNOWN: [(&str, &str); 3] =
+            [("CC BY-SA 4.0", "CC-BY-SA-4.0"), ("CC BY 4.0", "CC-BY-4.0"), ("CC BY 3.0", "CC-BY-3.0")];
+        let Ok(entries) = fs::read_dir(folder) else { return };
+        for path in entries.map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                licences_of_tables(&path, found);
+            } else if let Ok(text) = fs::read_to_string(&path) {
+                let head: String = text.lines().take_while(|line| line.starts_with('#')).collect();
+                found.extend(KNOWN.iter().filter(|(words, _)| head.contains(words)).map(|(_, licence)| licence));
+            }
+        }
+    }
+
+    #[test]
+    fn every_crate_states_the_licences_of_its_tables() {
+        let mut with_tables = 0;
+        for (name, manifest) in manifests() {
+            let mut found = Vec::new();
+            licences_of_tables(&workspace::root().join("crates").join(&name).join("data"), &mut found);
+            with_tables += usize::from(!found.is_empty());
+            let stated = manifest.lines().find_map(|line| line.strip_prefix("license = \"")).unwrap_or_default();
+            for licence in found {
+                assert!(stated.contains(&format!(" AND {licence}")), "{name}: {licence}, stated `{stated}`");
+            }
+        }
+        assert!(with_tables >= 4);
+    }
+
+    /// What the workflow does before it signs: the list of components of a program, and the paths for the action.
+    #[test]
+    fn the_list_of_components_has_a_serial_number_that_follows_the_program() {
+        let python = interpreter();
+        let knows_toml = Command::new(python).args(["-c", "import tomllib"]).output();
+        if std::env::var_os("CI").is_none() && !knows_toml.is_ok_and(|output| output.status.success()) {
+            return; // Python 3.11 or later is not installed
+        }
+        let folder = std::env::temp_dir().join(format!("ambulo-components-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let triple = "x86_64-unknown-linux-gnu";
+        let pack = |content: &str| {
+            let program = folder.join("ambulo");
+            fs::write(&program, content).unwrap();
+            let out = folder.join("out");
+            let run = |words: &[&std::ffi::OsStr]| {
+                let output = Command::new(python).current_dir(workspace::root()).args(words).output().unwrap();
+                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                String::from_utf8(output.stdout).unwrap()
+            };
+            run(&["packaging/archive.py".as_ref(), triple.as_ref(), program.as_ref(), out.as_ref()]);
+            let signed = run(&["packaging/attestable.py".as_ref(), out.as_ref(), triple.as_ref()]);
+            let list = signed.lines().find_map(|line| line.strip_prefix("list=")).unwrap();
+            assert!(signed.contains("archive=") && !signed.contains('*'), "{signed}");
+            fs::read_to_string(list).unwrap()
+        };
+        let (first, again, other) = (pack("one"), pack("one"), pack("two"));
+        fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(first, again, "same program, same bytes");
+        let serial = |text: &str| text.lines().find(|line| line.contains("serialNumber")).unwrap().to_owned();
+        assert!(serial(&first).contains("urn:uuid:") && serial(&first) != serial(&other));
+        for licence in ["CC-BY-SA-4.0", "CC-BY-4.0", "CC-BY-3.0"] {
+            assert!(first.contains(licence), "{licence}");
+        }
+        let workflow = read(WORKFLOW);
+        assert!(workflow.contains("packaging/attestable.py target/archives ${{ matrix.target }}"));
+        assert!(workflow.contains("sbom-path: ${{ steps.bill.outputs.list }}"));
     }
 
     #[test]
