@@ -1,13 +1,13 @@
-//! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`, and
-//! crates for the registry of Rust: `cargo xtask dist --crates`.
+//! Archives of the `ambulo` command for users: `cargo xtask dist [--target TARGET].. [--runner PROGRAM] [--tag TAG]`,
+//! and crates for the registry of Rust: `cargo xtask dist --crates`.
 //!
 //! Builds the command in the profile `dist`, packs it with its licences and the list of its components
 //! (`packaging/archive.py`) into `target/archives`, and tries the archive (`packaging/trial.py`) if this machine can
 //! run it. Python packs: its standard library has archives, hashes and JSON, so this program needs no dependency for
 //! them.
 //!
-//! `--crates` packs every crate that is to be published and builds each from its own archive, in the order in which they
-//! need each other. Nothing is uploaded.
+//! `--crates` packs every crate that is to be published and builds each from its own archive, in the order in which
+//! they need each other. Nothing is uploaded.
 
 use crate::python::interpreter;
 use crate::workspace;
