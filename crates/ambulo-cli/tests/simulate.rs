@@ -214,6 +214,9 @@ fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
         "{}",
         run.stdout
     );
+    assert!(run.stdout.starts_with("ann walked 3 steps, "), "the first line: {}", run.stdout);
+    let walked = &bench.json("out/summary.json")["walked"][0];
+    assert_eq!((&walked["figure"], &walked["steps"], walked["fell_at_s"].is_null()), (&"ann".into(), &3.into(), true));
     let verdict = &bench.json("out/summary.json")["verdict"];
     assert_eq!(verdict["state"], "infeasible");
     let reason = &verdict["figures"][0]["reasons"][0];

@@ -3,9 +3,8 @@
 use crate::force_unit::ForceUnit;
 use crate::summary::PeakSummary;
 use ambulo::findings::{Finding, Findings};
-use ambulo::simulation::SceneVerdict;
 use ambulo::simulation::scene::{IntegratorReason, RunStatistics, Scene, SceneFrame};
-use ambulo::simulation::{Integrator, Owner};
+use ambulo::simulation::{FigureWalked, Integrator, Owner, SceneVerdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -53,6 +52,9 @@ pub struct SceneSummary {
     pub convergence: ConvergenceSummary,
     /// Warnings and notes.
     pub findings: Vec<Finding>,
+    /// How far each walking figure came, and whether it fell; empty without walking figures.
+    #[serde(default)]
+    pub walked: Vec<FigureWalked>,
     /// Whether a person could do the motion of the walking figures; `null` without walking figures.
     pub verdict: Option<SceneVerdict>,
     /// Empty: durations are in `timings.json`. Folders of earlier versions have them here [ms].
@@ -275,6 +277,7 @@ impl SceneExtremes {
                 not_converged: statistics.not_converged,
             },
             findings: findings.as_slice().to_vec(),
+            walked: Vec::new(),
             verdict: None,
             timing_ms: BTreeMap::new(),
         }

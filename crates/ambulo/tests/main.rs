@@ -145,6 +145,7 @@ mod scene_file;
 mod scene_run;
 mod scene_start;
 mod scene_verdict;
+mod scene_walked;
 mod scene_walkers;
 mod segment_angles;
 mod segment_poses;

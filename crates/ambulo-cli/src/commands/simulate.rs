@@ -11,7 +11,7 @@ use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Thresholds, VerdictState};
 use ambulo::findings::Findings;
 use ambulo::simulation::scene::{SavedState, Scene, SceneFile, SceneSettings};
-use ambulo::simulation::{SceneVerdict, scene_verdict};
+use ambulo::simulation::{SceneVerdict, scene_verdict, scene_walked};
 use ambulo_report::{SceneCurves, scene_shapes};
 use ambulo_results::{
     Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, TIMINGS, summary_json,
@@ -108,6 +108,7 @@ pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> 
     let written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
     clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
+    summary.walked = scene_walked(&scene)?;
     summary.verdict = verdict;
     let (state, options, caller) = (scene.save(), options(args), caller.clone());
     Ok(SceneRun { written, summary, state, keep, inputs, caller, options, clock })

@@ -21,6 +21,9 @@ pub(crate) fn simulate(
         return print_json(summary);
     }
     let (world, energy, convergence) = (&summary.world, &summary.energy, &summary.convergence);
+    for walked in &summary.walked {
+        print_line(&format!("{} {}", walked.figure, walked.sentence()))?;
+    }
     print_line(&format!("{}, {}", summary.title.as_deref().unwrap_or("scene"), summary.input.scene))?;
     print_world(world)?;
     let [from, to] = summary.window_s;

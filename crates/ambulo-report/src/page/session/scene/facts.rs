@@ -10,6 +10,7 @@ pub(super) fn header(summary: &SceneSummary) -> Vec<Fact> {
     let scene = file_name(&summary.input.scene);
     let [from, to] = summary.window_s;
     let resumed = summary.input.resumed.as_ref();
+    let walked = summary.walked.iter().map(|walked| fact(&walked.figure, walked.sentence(), None));
     let lines = [
         Some(fact("Scene", summary.title.as_deref().unwrap_or(scene), Some(format!("from {scene}")))),
         resumed.map(|state| fact("Resumed", format!("from {}", file_name(state)), None)),
@@ -20,7 +21,7 @@ pub(super) fn header(summary: &SceneSummary) -> Vec<Fact> {
         Some(fact("Axes", "world: x forward, y up, z to the right", None)),
         Some(fact("Program", format!("Ambulo {}", summary.version), None)),
     ];
-    lines.into_iter().flatten().collect()
+    walked.chain(lines.into_iter().flatten()).collect()
 }
 
 fn world(world: &WorldSummary) -> String {
