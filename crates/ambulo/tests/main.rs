@@ -91,7 +91,6 @@ mod ground_zero_moment_point;
 mod hip_centres;
 mod identities;
 mod identity;
-mod independent;
 mod inverse_derivatives;
 mod job_participants;
 mod job_sensors;
