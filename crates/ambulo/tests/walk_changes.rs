@@ -33,6 +33,14 @@ fn synthetic(gait: &Gait, mode: SyntheticMode) -> SyntheticWalk {
     synthesise(&settings, &mut Findings::default()).unwrap()
 }
 
+/// From 1.2 to 1.6 m/s at 1 s, to a halt at 2.5 s, and to 0.9 m/s at 6 s.
+static THREE: LazyLock<(Human, Walk, ChangingWalk)> = LazyLock::new(|| {
+    let (human, gait) = (BUILD.human().unwrap(), gait(1.2, &[(1.0, 1.6), (2.5, 0.0), (6.0, 0.9)]));
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).unwrap();
+    let changing = changing(&human, &gait);
+    (human, walk, changing)
+});
+
 /// From 1.2 to 1.6 m/s within two steps, which begin at 2 s.
 static FASTER: LazyLock<SyntheticWalk> =
     LazyLock::new(|| synthetic(&gait(1.2, &[(2.0, 1.6)]), SyntheticMode::Corrected));
@@ -49,9 +57,7 @@ fn mean_speed(walk: &SyntheticWalk, end_s: f64, cycle_s: f64) -> f64 {
 /// after; one instant later the walk before is elsewhere.
 #[test]
 fn a_change_begins_and_ends_in_the_states_of_both_walks() {
-    let human = BUILD.human().unwrap();
-    let walk = Walk::new(&gait(1.2, &[(1.0, 1.6)]), human.dimensions.leg_length, &mut Findings::default()).unwrap();
-    let changing = make_changing_walk(&human, &walk, &ConsistentWalkSettings::default()).unwrap();
+    let (human, walk, changing) = &*THREE;
     let forward = human.model.coordinate("pelvis_tx").unwrap().index();
     let read = |t: f64| {
         let mut posture = [(); 3].map(|()| vec![0.0; human.model.coordinates().len()]);
@@ -81,8 +87,8 @@ fn a_change_begins_and_ends_in_the_states_of_both_walks() {
 /// continuous; a break of the correction or of the ramps would be tens of rad/s².
 #[test]
 fn targets_have_no_break_in_their_accelerations() {
-    let human = BUILD.human().unwrap();
-    let signals = changing(&human, &gait(1.2, &[(1.0, 1.6), (2.5, 0.0), (6.0, 0.9)])).signals(&human, 0.0, 9.0);
+    let (human, _, changing) = &*THREE;
+    let signals = changing.signals(human, 0.0, 9.0);
     let coordinates = human.model.coordinates().iter().zip(&signals);
     for (coordinate, signal) in coordinates {
         for i in 1..9000 {
