@@ -14,7 +14,7 @@ use std::process::{Command, ExitCode};
 
 /// Set where this program is called in place of the compiler.
 const VARIABLE: &str = "AMBULO_COMPILES_TESTS";
-/// Test programs whose own arithmetic takes most of their time.
+/// Test programs whose own code takes most of their time.
 const OPTIMISED: [&str; 1] = ["dense"];
 
 /// Lets cargo call this program in place of the compiler.
