@@ -109,7 +109,7 @@ fn message(findings: &Findings, code: Code) -> String {
 fn clean_recordings_are_silent() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
-        let (outcome, findings) = run(source(person, &data));
+        let (outcome, findings) = person.computed(&data);
         let found: Vec<_> = findings.as_slice().iter().filter(|finding| CODES.contains(&finding.code)).collect();
         assert!(found.is_empty(), "{}: {found:?}", person.name);
         assert!(outcome.not_measured.is_empty(), "{}", person.name);
@@ -120,14 +120,14 @@ fn clean_recordings_are_silent() {
 fn a_marker_that_only_the_standing_trial_lacks_is_placed_by_the_walk() {
     let Some(data) = data() else { return };
     for person in &PEOPLE[..3] {
-        let (clean, _) = run(source(person, &data));
+        let (clean, _) = person.computed(&data);
         for lost in [&["RTOE"][..], &["RHEE"], &["LANK"], &["RKNE"], &["LASI"]] {
             let mut spoiled = source(person, &data);
             change_standing(&mut spoiled, |still| lost.iter().for_each(|name| hide(still, name)));
             let (found, findings) = run(spoiled);
             let side = lost[0][..1].to_lowercase();
             let [ankle, knee] =
-                ["ankle_angle", "knee_angle"].map(|stem| apart(&clean, &found, &format!("{stem}_{side}")));
+                ["ankle_angle", "knee_angle"].map(|stem| apart(clean, &found, &format!("{stem}_{side}")));
             println!("{} {lost:?}: ankle {ankle:.1}, knee {knee:.1} degrees", person.name);
             assert!(ankle < 3.0 && knee < 4.0, "{} {lost:?}: {ankle} {knee}", person.name);
             assert!(message(&findings, Code::CalibrationPlaced).contains(lost[0]));
@@ -196,7 +196,7 @@ fn a_joint_that_nothing_determines_is_named_and_not_measured() {
 fn labels_of_left_and_right_that_are_exchanged_throughout_are_named_and_exchanged_back() {
     let Some(data) = data() else { return };
     for person in &PEOPLE[..2] {
-        let (clean, _) = run(source(person, &data));
+        let (clean, _) = person.computed(&data);
         for (walk, still) in [(true, false), (false, true), (true, true)] {
             let mut spoiled = source(person, &data);
             if walk {
@@ -211,7 +211,7 @@ fn labels_of_left_and_right_that_are_exchanged_throughout_are_named_and_exchange
             );
             assert_ne!(found.quality.state, QualityState::Good);
             for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
-                assert!(apart(&clean, &found, name) < 1e-6, "{} {name}", person.name);
+                assert!(apart(clean, &found, name) < 1e-6, "{} {name}", person.name);
             }
         }
     }
@@ -220,7 +220,7 @@ fn labels_of_left_and_right_that_are_exchanged_throughout_are_named_and_exchange
 #[test]
 fn a_pair_that_is_exchanged_throughout_is_exchanged_back() {
     let Some(data) = data() else { return };
-    let (clean, _) = run(source(&PEOPLE[0], &data));
+    let (clean, _) = PEOPLE[0].computed(&data);
     for [right, left] in [["RWRA", "LWRA"], ["RTHI", "LTHI"], ["RTIB", "LTIB"], ["RKNE", "LKNE"], ["RTOE", "LTOE"]] {
         for in_walk in [true, false] {
             let mut spoiled = source(&PEOPLE[0], &data);
@@ -233,7 +233,7 @@ fn a_pair_that_is_exchanged_throughout_is_exchanged_back() {
             let (found, findings) = run(spoiled);
             assert!(message(&findings, Code::MarkersSwap).contains(right), "{right}");
             for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
-                assert!(apart(&clean, &found, name) < 1e-6, "{right} {name}");
+                assert!(apart(clean, &found, name) < 1e-6, "{right} {name}");
             }
         }
     }
@@ -298,8 +298,8 @@ fn two_people_in_one_file_are_refused_with_their_names_and_one_can_be_chosen() {
     let error = file.of_person(Some("Carl")).unwrap_err().to_string();
     assert!(error.contains("`Carl`") && error.contains("Anna, Ben"), "{error}");
     markers(&mut anna).trial = chosen;
-    let (clean, found) = (run(source(&PEOPLE[0], &data)).0, run(anna).0);
-    let (clean, found) = (angle(&clean, "knee_angle_r"), angle(&found, "knee_angle_r"));
+    let (clean, found) = (&PEOPLE[0].computed(&data).0, run(anna).0);
+    let (clean, found) = (angle(clean, "knee_angle_r"), angle(&found, "knee_angle_r"));
     assert!(clean.iter().zip(&found).take(40).all(|(a, b)| (a - b).abs() < 0.5));
 }
 

@@ -1,7 +1,9 @@
 //! Effect of gaps in real marker trajectories on the joint moments of the built-in body.
 
 use crate::gait_files::{File, Subject, adult, child, woman};
-use ambulo::analysis::{AnalysisSettings, BodySource, LaboratoryRecording, MarkerTrial, analyse, body_in_motion};
+use ambulo::analysis::{
+    AnalysisSettings, BodySource, KnownBodies, LaboratoryRecording, MarkerTrial, analyse, body_in_motion,
+};
 use ambulo::findings::{Code, Finding, Findings};
 use ambulo::kinematics::marker_fit::FitSettings;
 use ambulo::motion::filter::LowPass;
@@ -20,6 +22,8 @@ struct Trial {
     still: LaboratoryRecording,
     walk: LaboratoryRecording,
     window: [f64; 2],
+    /// The body of the standing trial, which no loss in the walk changes.
+    bodies: KnownBodies,
 }
 
 fn recording(file: &File) -> LaboratoryRecording {
@@ -35,7 +39,7 @@ fn recording(file: &File) -> LaboratoryRecording {
 fn trial(subject: Option<Subject>, window: [f64; 2]) -> Option<Trial> {
     let subject = subject?;
     let (still, walk) = (recording(&subject.standing), recording(&subject.walk));
-    Some(Trial { subject, still, walk, window })
+    Some(Trial { subject, still, walk, window, bodies: KnownBodies::default() })
 }
 
 /// Moments at hip, knee and ankle [N.m], one row per joint, and the names of the fitted markers.
@@ -46,7 +50,7 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     let markers = MarkerTrial {
         trial: walk,
         standing: Some(&trial.still),
-        bodies: None,
+        bodies: Some(&trial.bodies),
         body,
         plate_feet: &[],
         window: Window::default(),

@@ -5,6 +5,7 @@
 //! `cargo test -p ambulo plug_in_gait -- --show-output` prints the comparison, with other filters of the forces as
 //! well.
 
+use crate::memo::Memo;
 use crate::shared_data;
 use ambulo::findings::Findings;
 use ambulo::model::Side;
@@ -70,14 +71,29 @@ impl Person {
         std::fs::read(folder.join(format!("biomechzoo-{name}/{name}{trial}.c3d"))).unwrap()
     }
 
+    /// The walk and the standing trial, read once in a process: its copies share the body of the standing trial, as
+    /// the trials of a visit do.
     pub(crate) fn source(&self, folder: &Path) -> Source {
+        static ALL: Memo<Source> = Memo::new();
         let read = |trial| LaboratoryFile::from_c3d(self.file(folder, trial), trial, &mut Findings::default()).unwrap();
         let (mass_kg, height_m) = (Some(self.mass_kg), Some(self.height_m));
-        Source::markers(MarkerSource {
-            trial: read(self.walk),
-            standing: Some(Arc::new(StandingTrial::new(read(self.standing)))),
-            body: MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg, height_m, set: None },
-            plates: Vec::new(),
+        let make = || {
+            Source::markers(MarkerSource {
+                trial: read(self.walk),
+                standing: Some(Arc::new(StandingTrial::new(read(self.standing)))),
+                body: MarkerBody::BuiltIn { table: SegmentTable::DeLevaMale, mass_kg, height_m, set: None },
+                plates: Vec::new(),
+            })
+        };
+        ALL.get(self.name.to_owned(), make).clone()
+    }
+
+    /// The outcome at the default settings and its findings, computed once in a process.
+    pub(crate) fn computed(&self, folder: &Path) -> &'static (Outcome, Findings) {
+        static ALL: Memo<(Outcome, Findings)> = Memo::new();
+        ALL.get(self.name.to_owned(), || {
+            let mut findings = Findings::default();
+            (study::run(self.source(folder), &Settings::default(), &mut findings).unwrap(), findings)
         })
     }
 
@@ -114,10 +130,16 @@ pub(crate) fn agreement(pairs: &[(f64, f64)]) -> Agreement {
 fn compared(folder: &Path, settings: &Settings) -> [Vec<Agreement>; 3] {
     let mut found = [const { Vec::new() }; 3];
     for person in &PEOPLE {
-        let outcome = study::run(person.source(folder), settings, &mut Findings::default()).unwrap();
+        let own;
+        let outcome = if *settings == Settings::default() {
+            &person.computed(folder).0
+        } else {
+            own = study::run(person.source(folder), settings, &mut Findings::default()).unwrap();
+            &own
+        };
         let (walk, _) = C3d::read(&person.file(folder, person.walk)).unwrap();
         for (joint, list) in JOINTS.iter().zip(&mut found) {
-            list.extend(Side::BOTH.map(|side| person.agreement(&outcome, &walk, joint, side)));
+            list.extend(Side::BOTH.map(|side| person.agreement(outcome, &walk, joint, side)));
         }
     }
     found

@@ -124,10 +124,10 @@ fn predicted() -> Settings {
 fn walks_of_seven_people_are_good_with_measured_and_with_predicted_forces() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
-        for settings in [Settings::default(), predicted()] {
-            let outcome = study::run(person.source(&data), &settings, &mut Findings::default()).unwrap();
+        let predicted = study::run(person.source(&data), &predicted(), &mut Findings::default()).unwrap();
+        for outcome in [&person.computed(&data).0, &predicted] {
             println!("{} {:?}", person.name, outcome.verdict.fit);
-            let quality = outcome.quality;
+            let quality = &outcome.quality;
             assert_eq!(quality.state, QualityState::Good, "{}: {:?}", person.name, quality.reasons);
         }
     }
@@ -227,8 +227,8 @@ fn errors_of_the_data_are_not_held_against_the_movement_and_nothing_is_called_fe
 #[test]
 fn a_jump_of_a_coordinate_is_named_with_its_frame() {
     let Some(data) = data() else { return };
-    let outcome = study::run(PEOPLE[0].source(&data), &Settings::default(), &mut Findings::default()).unwrap();
-    let (model, grid) = (outcome.body, outcome.analysis.trajectory.grid());
+    let (outcome, _) = PEOPLE[0].computed(&data);
+    let (model, grid) = (&outcome.body, outcome.analysis.trajectory.grid());
     let columns = model.coordinate_ids().map(|id| Some(outcome.analysis.trajectory.values(id).to_vec()));
     let mut motion = Motion { origin: "copied".to_owned(), times: grid.times(), columns: columns.collect() };
     let settings = Settings::default();

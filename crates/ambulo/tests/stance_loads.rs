@@ -50,7 +50,7 @@ fn difference(outcome: &Outcome, [a, b]: [&Analysis; 2], joint: &str, stance: &S
 fn a_leg_whose_plate_was_off_has_nearly_the_moments_that_the_plate_shows() {
     let Some(data) = data() else { return };
     for person in &PEOPLE[..3] {
-        let (whole, _) = run(person.source(&data));
+        let (whole, _) = person.computed(&data);
         let on_a_plate = |stance: &&Stance| matches!(&stance.source, StanceSource::Plates(plates) if plates.len() == 1);
         for stance in whole.stances.iter().filter(on_a_plate) {
             let StanceSource::Plates(plates) = &stance.source else { panic!("a plate") };
@@ -65,12 +65,12 @@ fn a_leg_whose_plate_was_off_has_nearly_the_moments_that_the_plate_shows() {
                 * found.analysis.trajectory.grid().rate_hz()) as usize;
             assert!((found.load_sources().unwrap()[stance.side][frame] - 1.0).abs() < 1e-9);
             for (joint, largest) in LARGEST_NM_KG {
-                let predicted = difference(&whole, [found.complete(), whole.complete()], joint, stance);
+                let predicted = difference(whole, [found.complete(), whole.complete()], joint, stance);
                 println!("{} {} {joint}: {predicted:.3} N.m/kg", person.name, stance.side);
                 assert!(predicted < largest, "{} {} {joint}: {predicted}", person.name, stance.side);
             }
             // Without a load the ankle of a leg that carries the body has no moment.
-            let bare = difference(&whole, [&found.analysis, whole.complete()], "ankle_angle", stance);
+            let bare = difference(whole, [&found.analysis, whole.complete()], "ankle_angle", stance);
             assert!(bare > 3.0 * LARGEST_NM_KG[0].1, "{bare}");
         }
     }
@@ -79,7 +79,7 @@ fn a_leg_whose_plate_was_off_has_nearly_the_moments_that_the_plate_shows() {
 #[test]
 fn a_leg_on_a_plate_without_load_is_doubtful_and_one_beside_the_plates_is_not() {
     let Some(data) = data() else { return };
-    let (whole, findings) = run(PEOPLE[0].source(&data));
+    let (whole, findings) = PEOPLE[0].computed(&data);
     assert_eq!(whole.quality.state, QualityState::Good);
     assert!(!findings.has(Code::StancesLegUnmeasured));
     let StanceSource::Plates(plates) =
@@ -108,9 +108,9 @@ fn a_leg_on_a_plate_without_load_is_doubtful_and_one_beside_the_plates_is_not() 
 #[test]
 fn the_knee_adduction_moment_says_whether_it_was_measured() {
     let Some(data) = data() else { return };
-    let (whole, _) = run(PEOPLE[0].source(&data));
+    let (whole, _) = PEOPLE[0].computed(&data);
     let (half, _) = run(without_plates(PEOPLE[0].source(&data), &[0]));
-    let [whole, half] = [&whole, &half].map(Outcome::knee_adduction);
+    let [whole, half] = [whole, &half].map(Outcome::knee_adduction);
     assert!(whole.values().all(|leg| leg.source == LoadSource::Measured && !leg.stances.is_empty()), "{whole:?}");
     let [same, lost] = [Side::Right, Side::Left].map(|side| (&whole[side], &half[side]));
     println!("right {same:?}, left {lost:?}");
@@ -122,14 +122,14 @@ fn the_knee_adduction_moment_says_whether_it_was_measured() {
 #[test]
 fn a_measured_leg_keeps_its_numbers_and_quality_and_verdict_stay_those_of_the_plates() {
     let Some(data) = data() else { return };
-    let (found, findings) = run(PEOPLE[0].source(&data));
+    let (found, findings) = PEOPLE[0].computed(&data);
     assert!(matches!(found.force_origin, ForceOrigin::Mixed { .. }), "there are stances before and after the plates");
     assert!(!findings.has(Code::StancesUnknown));
     for stance in found.stances.iter().filter(|stance| stance.source.is_measured()) {
         for (joint, _) in LARGEST_NM_KG {
             // The force of the stance before fades out within 0.03 s.
             let inner = Stance { start_s: stance.start_s + 0.04, end_s: stance.end_s - 0.04, ..stance.clone() };
-            assert!(difference(&found, [&found.analysis, found.complete()], joint, &inner) < 1e-9);
+            assert!(difference(found, [&found.analysis, found.complete()], joint, &inner) < 1e-9);
         }
     }
     let in_order = |pair: &[Stance]| pair[0].start_s <= pair[1].start_s;

@@ -50,13 +50,20 @@ fn has_measure(outcome: &Outcome, measure: Measure) -> bool {
 fn plates_that_are_30_ms_late_or_early_are_found_with_their_sign_and_the_same_plates_in_time_are_not() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
-        for by_s in [0.0, 0.03, -0.03, 0.06] {
-            let (outcome, findings) = run(late(person.source(&data), by_s), &Settings::default());
+        for by_s in [0.0_f64, 0.03, -0.03, 0.06] {
+            let is_late = by_s.abs() > 0.0;
+            let own;
+            let (outcome, findings) = if is_late {
+                own = run(late(person.source(&data), by_s), &Settings::default());
+                &own
+            } else {
+                person.computed(&data)
+            };
             let found = outcome.force_delay_s;
             println!("{} late by {by_s} s: found {found:?}, {:?}", person.name, outcome.quality.state);
             let is_named = findings.has(Code::ForcesDelayed);
-            assert_eq!(is_named, by_s.abs() > 0.0, "{} {by_s}", person.name);
-            assert_eq!(has_measure(&outcome, Measure::ForceDelay), is_named, "{} {by_s}", person.name);
+            assert_eq!(is_named, is_late, "{} {by_s}", person.name);
+            assert_eq!(has_measure(outcome, Measure::ForceDelay), is_named, "{} {by_s}", person.name);
             if is_named {
                 // The two witnesses scatter by 5 ms together.
                 assert!((found.unwrap() - by_s).abs() < 0.012, "{} {by_s}: {found:?}", person.name);
@@ -70,14 +77,14 @@ fn plates_that_are_30_ms_late_or_early_are_found_with_their_sign_and_the_same_pl
 fn a_stated_delay_brings_late_plates_back() {
     let Some(data) = data() else { return };
     let person = &PEOPLE[0];
-    let (truth, _) = run(person.source(&data), &Settings::default());
+    let (truth, _) = person.computed(&data);
     let settings = Settings { force_delay_s: 0.03, ..Settings::default() };
     let (mended, findings) = run(late(person.source(&data), 0.03), &settings);
     assert!(!findings.has(Code::ForcesDelayed));
     assert_eq!(mended.quality.state, QualityState::Good);
     let knee = truth.body.coordinate("knee_angle_r").unwrap().index();
     let peak = |outcome: &Outcome| outcome.analysis.forces.generalized[knee].iter().copied().fold(0.0, f64::max);
-    assert!((peak(&mended) - peak(&truth)).abs() < 0.05, "{} {}", peak(&mended), peak(&truth));
+    assert!((peak(&mended) - peak(truth)).abs() < 0.05, "{} {}", peak(&mended), peak(truth));
     let (opposite, _) = run(late(person.source(&data), 0.03), &Settings { force_delay_s: -0.03, ..settings });
     assert!(opposite.force_delay_s.unwrap() > 0.045, "the opposite sign doubles the delay");
 }
@@ -113,11 +120,17 @@ fn a_clock_that_is_wrong_by_a_factor_of_1_25_is_contradicted_by_force_plates() {
     let Some(data) = data() else { return };
     for person in &PEOPLE {
         for factor in [0.8, 1.0, 1.25] {
-            let (outcome, findings) = run(stretched(person.source(&data), factor), &Settings::default());
             let is_wrong = (factor - 1.0_f64).abs() > 0.1;
+            let own;
+            let (outcome, findings) = if is_wrong {
+                own = run(stretched(person.source(&data), factor), &Settings::default());
+                &own
+            } else {
+                person.computed(&data)
+            };
             println!("{} {factor}: {:?}", person.name, outcome.quality.reasons);
             assert_eq!(findings.has(Code::MotionClock), is_wrong, "{} {factor}", person.name);
-            assert_eq!(has_measure(&outcome, Measure::Tempo), is_wrong, "{} {factor}", person.name);
+            assert_eq!(has_measure(outcome, Measure::Tempo), is_wrong, "{} {factor}", person.name);
         }
     }
 }
@@ -161,7 +174,7 @@ fn played(mut source: Source, shown: impl Fn(usize) -> usize) -> Source {
 fn frames_that_repeat_are_gaps_and_the_moments_are_those_of_the_recording() {
     let Some(data) = data() else { return };
     let person = &PEOPLE[0];
-    let (truth, findings) = run(person.source(&data), &Settings::default());
+    let (truth, findings) = person.computed(&data);
     assert!(!findings.has(Code::MotionHeldFrames));
     let said = |findings: &Findings| {
         let mut held = findings.as_slice().iter().filter(|finding| finding.code == Code::MotionHeldFrames);
@@ -178,8 +191,8 @@ fn frames_that_repeat_are_gaps_and_the_moments_are_those_of_the_recording() {
                 let inside = (0..grid.frames).filter(|i| (1.8..2.6).contains(&grid.time(*i)));
                 inside.map(|i| outcome.analysis.forces.generalized[id][i]).collect::<Vec<f64>>()
             };
-            let apart = of(&truth).iter().zip(of(&outcome)).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
-            let rms = (apart / of(&truth).len() as f64).sqrt() / 60.3;
+            let apart = of(truth).iter().zip(of(&outcome)).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+            let rms = (apart / of(truth).len() as f64).sqrt() / 60.3;
             println!("every {every}: {name} {rms:.3} N.m/kg");
             assert!(rms < 0.1, "{every} {name}: {rms} N.m/kg");
         }

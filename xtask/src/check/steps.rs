@@ -76,7 +76,7 @@ const COMPILED: [Step; 8] = [
             "--no-run",
             "--message-format=json-render-diagnostics",
         ],
-        hint: "mend what the compiler names",
+        hint: "mend what the compiler or clippy names, or say why not with #[expect(.., reason = \"..\")]",
         ..PLAIN
     },
     Step {
@@ -85,9 +85,9 @@ const COMPILED: [Step; 8] = [
             "clippy",
             "--workspace",
             // Not `--all-targets`, which compiles a library a second time for its unit tests, also where it has none.
+            // Not `--tests`: they are linted as they are compiled.
             "--lib",
             "--bins",
-            "--tests",
             "--examples",
             "--locked",
             "--profile",
@@ -293,7 +293,7 @@ impl Tool {
             Tool::Cargo | Tool::CargoForWasm | Tool::TestPrograms => workspace::cargo(),
             Tool::CargoAfterClippy => {
                 let mut command = workspace::cargo();
-                let compiler = Path::new(command.get_program()).with_file_name(format!("clippy-driver{EXE_SUFFIX}"));
+                let compiler = compiler::clippy(Path::new(command.get_program()));
                 if compiler.is_file() {
                     command.env("RUSTC_WORKSPACE_WRAPPER", compiler);
                 }
@@ -320,8 +320,8 @@ impl Step {
             }
         }
         command.envs(self.variables.iter().copied());
-        if let (TEST_PROGRAMS, Ok(this)) = (self.name, std::env::current_exe()) {
-            command.env("RUSTC_WRAPPER", this).env(compiler::VARIABLE, "1");
+        if self.arguments.first() == Some(&"test") {
+            compiler::stand_in(&mut command);
         }
         command
     }

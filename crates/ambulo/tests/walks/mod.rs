@@ -1,11 +1,10 @@
 //! Synthetic walks that several tests need, each made once in a process.
 
+use crate::memo::Memo;
 use ambulo::findings::Findings;
 use ambulo::gait::Gait;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A man with toe joints.
 pub(crate) const MAN: Build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
@@ -17,12 +16,8 @@ pub(crate) type Made = (SyntheticWalk, Findings);
 
 /// A walk in a built-in gait at 100 Hz.
 pub(crate) fn made(gait: &str, build: Build, mode: SyntheticMode, cycles: usize) -> &'static Made {
-    static ALL: Mutex<BTreeMap<String, &'static OnceLock<Made>>> = Mutex::new(BTreeMap::new());
-    let name = format!("{gait} {build:?} {mode:?} {cycles}");
-    // The lock is not held while a walk is made, so that tests of different walks do not wait for each other.
-    let walk =
-        *ALL.lock().unwrap_or_else(PoisonError::into_inner).entry(name).or_insert_with(|| Box::leak(Box::default()));
-    walk.get_or_init(|| {
+    static ALL: Memo<Made> = Memo::new();
+    ALL.get(format!("{gait} {build:?} {mode:?} {cycles}"), || {
         let (gait, mut findings) = (Gait::named(gait).unwrap(), Findings::default());
         let settings = SyntheticWalkSettings { gait: &gait, build, mode, cycles, rate_hz: 100.0 };
         (synthesise(&settings, &mut findings).unwrap(), findings)
