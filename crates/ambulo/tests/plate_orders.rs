@@ -139,6 +139,9 @@ fn cross_talk_of_a_neighbouring_plate_is_no_load() {
         let contact = &feet.contacts[1];
         assert!((contact.start_s - strike).abs() < 0.02 && (contact.end_s - off).abs() < 0.02, "{contact:?}");
     }
+    // Less than a load: it follows the step on the other plate.
+    let (_, findings) = read(with_cross_talk(|load| 0.025 * load));
+    assert!(findings.has(Code::PlatesCrossTalk), "{findings:?}");
     // A light foot on the plate is a load.
     let (light, findings) = read(vec![two_plates().remove(0), {
         let p = place(L, 1);

@@ -4,7 +4,7 @@
 use crate::shared_data;
 use ambulo::analysis::Analysis;
 use ambulo::findings::{Code, Findings};
-use ambulo::job::{FileError, FootColumns, ForceFiles, Job};
+use ambulo::job::{FileError, Job};
 use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
@@ -14,7 +14,7 @@ use ambulo::motion::{MarkerPath, MarkerRecording};
 use ambulo::numerics::Random;
 use ambulo::spatial::Vec3;
 use ambulo::study::{
-    self, GroundSettings, LaboratoryFile, Outcome, Recording, Settings, Source, StandingTrial, StatedSize, Tracking,
+    self, GroundSettings, LaboratoryFile, Outcome, Recording, Settings, Source, StandingTrial, Tracking,
 };
 use ambulo::technical_markers::{MarkedBody, computed_points, technical_markers};
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,71 +191,22 @@ fn points_that_a_program_computed_are_told_from_markers() {
 
 // ---- recordings with other names ----
 
-struct Case {
-    folder: &'static str,
-    standing: &'static str,
-    moving: &'static str,
-    size: Option<[f64; 2]>,
-    forces: Option<(&'static str, [&'static str; 2])>,
-}
+/// Recordings with a standing trial and clusters or single technical markers on thighs and shanks, one request a line.
+const LIST: &str = include_str!("cluster_recordings.jsonl");
 
-/// Recordings with a standing trial and clusters or single technical markers on thighs and shanks.
-const CASES: [Case; 4] = [
-    Case {
-        folder: "opensim-gait2392-subject01",
-        standing: "subject01_static.trc",
-        moving: "subject01_walk1.trc",
-        size: Some([72.6, 1.8034]),
-        forces: Some(("subject01_walk1_grf.mot", ["ground_force_", "1_ground_force_"])),
-    },
-    Case {
-        folder: "opensim-rajagopal-walk",
-        standing: "static_walk_1.trc",
-        moving: "markers_walk.trc",
-        size: Some([85.07, 1.829]),
-        forces: Some(("grf_walk.mot", ["ground_force_r_", "ground_force_l_"])),
-    },
-    Case {
-        folder: "opensim-rajagopal-run",
-        standing: "static_run.trc",
-        moving: "motion_capture_run.trc",
-        size: Some([72.84, 1.8]),
-        forces: Some(("grf_run.mot", ["R_ground_force_", "L_ground_force_"])),
-    },
-    Case {
-        folder: "motonms-unipd",
-        standing: "Static1.c3d",
-        moving: "Walking1.c3d",
-        size: Some([82.6, 1.75]),
-        forces: None,
-    },
-];
+/// The recording in a folder.
+fn read(folder: &str, data: &Path) -> Source {
+    let jobs = LIST.lines().map(|line| serde_json::from_str::<Job>(line).unwrap());
+    let job = jobs.into_iter().find(|job| job.recording().starts_with(folder)).unwrap();
+    let mut files = |path: &Path| fs::read(data.join(path)).map_err(FileError::from);
+    job.read(&mut files, &mut Findings::default()).unwrap().source
+}
 
 /// Markers of thighs and shanks: those that define a joint, and the others.
 #[derive(Default)]
 struct LegMarkers {
     joints: BTreeSet<String>,
     technical: BTreeMap<String, Vec<String>>,
-}
-
-impl Case {
-    fn read(&self, data: &Path) -> Source {
-        let folder = data.join(self.folder);
-        let foot = |body: &str, prefix: &str| Some(FootColumns { body: body.to_owned(), prefix: prefix.to_owned() });
-        let forces = self.forces.map_or_else(ForceFiles::default, |(name, [right, left])| ForceFiles {
-            table: Some(folder.join(name)),
-            right: foot("calcn_r", right),
-            left: foot("calcn_l", left),
-            loads: None,
-        });
-        let size = self.size.map_or_else(StatedSize::default, |[mass, height]| StatedSize {
-            mass_kg: Some(mass),
-            height_m: Some(height),
-        });
-        let job = Job { standing: Some(folder.join(self.standing)), size, forces, ..Job::of(folder.join(self.moving)) };
-        let mut files = |path: &Path| fs::read(path).map_err(FileError::from);
-        job.read(&mut files, &mut Findings::default()).unwrap().source
-    }
 }
 
 fn run(source: Source) -> (Outcome, Findings) {
@@ -352,12 +303,12 @@ fn measured(outcome: &Outcome) -> &Analysis {
 }
 
 /// The recording as it is and with few names, compared.
-fn compare(case: &Case) {
+fn compare(folder: &str) {
     let Some(data) = shared_data::data() else { return };
-    let source = case.read(&data);
+    let source = read(folder, &data);
     let (whole, _) = run(source.clone());
     let legs = leg_markers(&whole);
-    println!("{}: {:?}", case.folder, legs.technical);
+    println!("{folder}: {:?}", legs.technical);
     let few = with_few_names(&source, &legs, 3);
     let (found, findings) = run(few);
     let [before, after] = [&whole, &found].map(|outcome| (use_of_markers(outcome), vertical_error(outcome)));
@@ -375,28 +326,27 @@ fn compare(case: &Case) {
 
 #[test]
 fn a_walk_on_a_belt_with_clusters_without_names() {
-    compare(&CASES[0]);
+    compare("opensim-gait2392-subject01");
 }
 
 #[test]
 fn a_walk_with_clusters_without_names() {
-    compare(&CASES[1]);
+    compare("opensim-rajagopal-walk");
 }
 
 #[test]
 fn a_run_with_clusters_without_names() {
-    compare(&CASES[2]);
+    compare("opensim-rajagopal-run");
 }
 
 /// Each thigh has one technical marker here, and the feet are hardly seen: too little for a pose, which is said.
 #[test]
 fn a_walk_with_single_technical_markers_is_not_followed_in_silence() {
     let Some(data) = shared_data::data() else { return };
-    let case = &CASES[3];
-    let source = case.read(&data);
+    let source = read("motonms-unipd", &data);
     let (whole, none) = run(source.clone());
     let (found, findings) = run(with_few_names(&source, &leg_markers(&whole), 3));
-    println!("{}: {:?}, renamed {:?}", case.folder, use_of_markers(&whole), use_of_markers(&found));
+    println!("{:?}, renamed {:?}", use_of_markers(&whole), use_of_markers(&found));
     assert!(!none.has(Code::MarkersSegmentHardlyShown), "{none:?}");
     assert!(findings.has(Code::MarkersSegmentHardlyShown), "{findings:?}");
 }
@@ -404,8 +354,7 @@ fn a_walk_with_single_technical_markers_is_not_followed_in_silence() {
 #[test]
 fn one_wand_on_each_segment_is_too_little_and_is_said() {
     let Some(data) = shared_data::data() else { return };
-    let case = &CASES[0];
-    let source = case.read(&data);
+    let source = read("opensim-gait2392-subject01", &data);
     let settings = Settings { ground: GroundSettings::MeasuredOrPredicted, ..Settings::default() };
     let run = |source: Source| {
         let mut findings = Findings::default();

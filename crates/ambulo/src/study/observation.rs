@@ -327,7 +327,7 @@ impl Statements {
             is_from_plates: false,
             origin: Origin::Skeleton(Box::new(Tracking::Skeleton {
                 statement: skeleton.statement.clone(),
-                regions: RegionFit::of(&body.human.model, &body.fit),
+                regions: RegionFit::of(&body.human.model, &body.fit, &std::collections::BTreeMap::new()),
                 fit: Box::new(body.fit),
                 flights: body.flights,
             })),

@@ -629,7 +629,7 @@ fn residual_reduced(
 fn tracking(origin: Origin, measured_events: Vec<Event>) -> Option<Tracking> {
     match origin {
         Origin::Markers(followed) => Some(Tracking::Markers(Box::new(TrackedMarkers {
-            regions: RegionFit::of(&followed.body.subject.model, &followed.body.fit),
+            regions: RegionFit::of(&followed.body.subject.model, &followed.body.fit, &followed.body.subject.weights),
             body: followed.body,
             listed_events: followed.listed,
             measured_events,

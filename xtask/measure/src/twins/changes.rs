@@ -1,5 +1,6 @@
 //! The changes that spoil a recording.
 
+use super::faults::{HEELS, TOES};
 use super::spoiled::Trial;
 use ambulo_formats::c3d::{C3d, Channel, Platform, Point};
 use std::collections::BTreeMap;
@@ -212,15 +213,28 @@ pub(super) fn bare(name: &str) -> &str {
     name.rsplit_once(':').map_or(name, |(_, label)| label)
 }
 
-/// The knee marker of one leg sits 40 mm elsewhere in the walk: away from the shank's other markers, along the thigh.
-pub(super) fn moved(trial: &mut Trial, knees: &[&str], ankles: &[&str]) -> Option<()> {
+/// A direction on the body: along the foot, from heel to toe, or away from another marker.
+pub(super) enum Way<'a> {
+    Forward,
+    Backward,
+    AwayFrom(&'a [&'a str]),
+}
+
+/// A marker sits this far from its place in the whole walk [mm].
+pub(super) fn moved(trial: &mut Trial, names: &[&str], way: Way<'_>, distance_mm: f64) -> Option<()> {
     trial.standing.as_ref()?;
-    let units = 40.0 * 1e-3 / trial.moving.metres_per_unit()?;
-    let of = |names: &[&str]| trial.moving.points.iter().position(|point| names.contains(&bare(&point.name)));
-    let (knee, ankle) = (of(knees)?, of(ankles)?);
-    let away = trial.moving.points[ankle].positions.clone();
-    for (position, ankle) in trial.moving.points[knee].positions.iter_mut().zip(away) {
-        let way = [0, 1, 2].map(|axis| position[axis] - ankle[axis]);
+    let units = distance_mm * 1e-3 / trial.moving.metres_per_unit()?;
+    let points = &trial.moving.points;
+    let of = |names: &[&str]| points.iter().position(|point| names.contains(&bare(&point.name)));
+    let path = |names: &[&str]| Some(points[of(names)?].positions.clone());
+    let own = of(names)?;
+    let [from, to] = match way {
+        Way::Forward => [path(HEELS)?, path(TOES)?],
+        Way::Backward => [path(TOES)?, path(HEELS)?],
+        Way::AwayFrom(other) => [path(other)?, points[own].positions.clone()],
+    };
+    for (position, (from, to)) in trial.moving.points[own].positions.iter_mut().zip(from.into_iter().zip(to)) {
+        let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
         let length = way.iter().map(|part| part * part).sum::<f64>().sqrt();
         for (value, part) in position.iter_mut().zip(way) {
             *value += units * part / length;
@@ -264,4 +278,23 @@ pub(super) fn without(file: &mut C3d, names: &[&str]) -> Option<()> {
     let index = file.points.iter().position(|point| names.contains(&bare(&point.name)))?;
     file.points.remove(index);
     Some(())
+}
+
+/// All plates this far elsewhere, along the walk or across it [mm].
+pub(super) fn plates_moved(trial: &mut Trial, is_along: bool, distance_mm: f64) -> Option<()> {
+    let along = walked_axis(&trial.moving)?;
+    let axis = if is_along { along } else { 1 - along };
+    let units = distance_mm * 1e-3 / trial.moving.metres_per_unit()?;
+    each_platform(&mut trial.moving, |plate| plate.corners.iter_mut().for_each(|corner| corner[axis] += units))
+}
+
+/// The corners of the first plate alone in another order.
+pub(super) fn corners_of_one(trial: &mut Trial, order: fn([Position; 4]) -> [Position; 4]) -> Option<()> {
+    let mut count = 0;
+    each_platform(&mut trial.moving, |plate| {
+        if count == 0 {
+            plate.corners = order(plate.corners);
+        }
+        count += 1;
+    })
 }

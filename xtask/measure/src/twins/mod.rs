@@ -12,6 +12,7 @@
 
 mod changes;
 pub(crate) mod clean;
+mod faults;
 mod impossible;
 mod renamed;
 mod spoiled;
@@ -54,8 +55,10 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 }
 
 /// The page, and the faults that are not named often enough.
+#[expect(clippy::print_stderr, reason = "what is said instead is for those who mend it")]
 fn page(data: &Path, chosen: &Chosen<'_>) -> Result<(String, Vec<&'static str>), String> {
-    let spoiled::Spoiled { table, clean, failures } = spoiled::judged(data, chosen)?;
+    let spoiled::Spoiled { table, clean, failures, said } = spoiled::judged(data, chosen)?;
+    said.iter().for_each(|twin| eprintln!("{twin}"));
     let mut page = format!(
         "# Altered copies of recordings\n\nThe recordings are those of `crates/ambulo/tests/clean_recordings.txt`, \
          of which a test asks that they are good, feasible, and\nshow none of these faults. The command is `cargo \

@@ -1,24 +1,28 @@
-//! Joint moments with markers whose names say nothing, against those with the names.
+//! Forces with markers whose names say nothing, against those with the names.
 //!
-//! Of the first clean recording of each person with a standing trial, the technical markers of thighs and shanks are
-//! renamed `m1`, `m2` and so on in both files, and the markers of knees and ankles are left in the standing trial
-//! alone: the way most research laboratories record. People with fewer than two technical markers on a thigh or shank
-//! are left out, because with one the segment is not shown, which a warning says.
+//! In recordings with a standing trial and clusters on thighs and shanks, knees and ankles keep their markers in the
+//! standing trial alone, and at most [`KEPT`] other markers of each thigh and shank are left, with the names `m1`, `m2`
+//! and so on in both files: the way most research laboratories record. The recordings are those of
+//! crates/ambulo/tests/cluster_recordings.jsonl.
 
-use super::changes::bare;
-use super::clean::{Files, people};
-use super::spoiled::{Trial, name};
+use super::spoiled::name;
+use ambulo::analysis::Analysis;
 use ambulo::findings::Findings;
+use ambulo::job::{FileError, Job};
 use ambulo::model::Side;
+use ambulo::motion::MarkerPath;
 use ambulo::study::validation::TextTable;
-use ambulo::study::{Outcome, Tracking};
-use ambulo_formats::c3d::C3d;
+use ambulo::study::{
+    self, GroundSettings, LaboratoryFile, Outcome, Recording, Settings, Source, StandingTrial, Tracking,
+};
 use std::path::Path;
+use std::sync::Arc;
 
+const LIST: &str = include_str!("../../../../crates/ambulo/tests/cluster_recordings.jsonl");
 /// The coordinates whose moments are compared, without the side.
 const JOINTS: [&str; 3] = ["ankle_angle", "knee_angle", "hip_flexion"];
-/// Fewest technical markers on a thigh or shank.
-const FEWEST: usize = 2;
+/// Technical markers that a thigh or shank keeps.
+const KEPT: usize = 3;
 /// Weight of markers that define a joint.
 const AT_JOINT: f64 = 1.0;
 
@@ -26,54 +30,61 @@ const AT_JOINT: f64 = 1.0;
 #[derive(Default)]
 struct LegMarkers {
     at_joints: Vec<String>,
-    technical: Vec<String>,
-    /// Smallest number of technical markers on one of the segments.
-    fewest: usize,
+    /// The technical markers that are left.
+    kept: Vec<String>,
+    dropped: Vec<String>,
 }
 
 /// The table with the words around it.
 pub(super) fn section(data: &Path, only: &str) -> Result<String, String> {
-    let mut table =
-        TextTable::new(&["recording", "renamed", "used", "of", "with names", "of", "ankle", "knee", "hip flexion"]);
-    let first = people(data).into_iter().filter_map(|trials| trials.into_iter().next());
-    for files in first.filter(|files| files.standing.is_some() && name(&files.trial).contains(only)) {
-        if let Some(row) = row(&files)? {
-            table.row(row);
+    let mut table = TextTable::new(&[
+        "recording",
+        "renamed",
+        "used",
+        "of",
+        "with names",
+        "of",
+        "vertical",
+        "with names",
+        "ankle",
+        "knee",
+        "hip flexion",
+    ]);
+    for line in LIST.lines() {
+        let job: Job = serde_json::from_str(line).map_err(|e| format!("{line}: {e}"))?;
+        if name(job.recording()).contains(only) {
+            table.row(row(data, &job)?);
         }
     }
     Ok(format!(
-        "## Markers without names\n\nTechnical markers of thighs and shanks are renamed, and knee and ankle markers \
-         are in the standing trial alone. `used`: markers of the\nwalk that the body follows, of all; root mean square \
-         difference of the moments of both legs from those with all names [N.m/kg].\n\n{}",
+        "## Markers without names\n\nAt most {KEPT} technical markers of each thigh and shank are left, with names that \
+         say nothing, and knee and ankle markers are in the\nstanding trial alone. `used`: markers that the body \
+         follows, of all; `vertical`: error of the predicted vertical force, mean of the\nfeet [% of body weight]; \
+         root mean square difference of the measured moments of both legs from those with all names [N.m/kg].\n\n{}",
         table.text()
     ))
 }
 
-/// `None` for a person with too few technical markers.
-fn row(files: &Files) -> Result<Option<[String; 9]>, String> {
-    let recorded = Trial::read(files, files)?.computed(&mut Findings::default())?;
-    let legs = leg_markers(&recorded);
-    if legs.fewest < FEWEST {
-        return Ok(None);
-    }
-    let mut trial = Trial::read(files, files)?;
-    trial.moving.points.retain(|point| !legs.at_joints.iter().any(|name| name == bare(&point.name)));
-    rename(&mut trial.moving, &legs.technical);
-    rename(trial.standing.as_mut().ok_or("no standing trial")?, &legs.technical);
-    let renamed = trial.computed(&mut Findings::default())?;
+fn row(data: &Path, job: &Job) -> Result<Vec<String>, String> {
+    let mut files = |path: &Path| std::fs::read(data.join(path)).map_err(FileError::from);
+    let source = job.read(&mut files, &mut Findings::default()).map_err(|error| error.text())?.source;
+    let recorded = computed(source.clone())?;
+    let legs = LegMarkers::of(&recorded);
+    let renamed = computed(legs.renamed(source)?)?;
     let [(used, all), (before, of)] = [&renamed, &recorded].map(counts);
-    let numbers = [legs.technical.len(), used, all, before, of].map(|count| count.to_string());
-    let [renamed_count, used, all, before, of] = numbers;
-    let [ankle, knee, hip] = JOINTS.map(|joint| format!("{:.3}", difference([&recorded, &renamed], joint)));
-    Ok(Some([name(&files.trial), renamed_count, used, all, before, of, ankle, knee, hip]))
+    let counts = [legs.kept.len(), used, all, before, of].map(|count| count.to_string());
+    let errors = [&renamed, &recorded].map(|outcome| word(vertical_error(outcome), 1));
+    let moments = JOINTS.map(|joint| word(difference([&recorded, &renamed], joint), 3));
+    Ok([name(job.recording())].into_iter().chain(counts).chain(errors).chain(moments).collect())
 }
 
-fn rename(file: &mut C3d, names: &[String]) {
-    for point in &mut file.points {
-        if let Some(number) = names.iter().position(|name| name == bare(&point.name)) {
-            point.name = format!("m{}", number + 1);
-        }
-    }
+fn word(value: Option<f64>, decimals: usize) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+fn computed(source: Source) -> Result<Outcome, String> {
+    let settings = Settings { ground: GroundSettings::Predicted, ..Settings::default() };
+    study::run(source, &settings, &mut Findings::default()).map_err(|error| error.to_string())
 }
 
 /// Markers that the body follows, and all markers of the recording.
@@ -83,42 +94,72 @@ fn counts(outcome: &Outcome) -> (usize, usize) {
     (used, tracked.body.recorded_markers)
 }
 
-fn leg_markers(outcome: &Outcome) -> LegMarkers {
-    let Some(Tracking::Markers(tracked)) = &outcome.tracking else { return LegMarkers::default() };
-    let subject = &tracked.body.subject;
-    let legs = subject.model.anatomy().legs();
-    let segments = Side::BOTH.into_iter().filter_map(|side| legs[side].as_ref());
-    let mut found = LegMarkers { fewest: usize::MAX, ..LegMarkers::default() };
-    for body in segments.flat_map(|leg| [leg.thigh, leg.shank]) {
-        let own = subject.model.markers().iter().filter(|marker| marker.body == Some(body));
-        let (at_joints, technical): (Vec<_>, Vec<_>) = own
-            .map(|marker| marker.name.clone())
-            .partition(|name| subject.weights.get(name).is_none_or(|weight| *weight >= AT_JOINT));
-        found.fewest = found.fewest.min(technical.len());
-        found.at_joints.extend(at_joints);
-        found.technical.extend(technical);
+impl LegMarkers {
+    fn of(outcome: &Outcome) -> LegMarkers {
+        let Some(Tracking::Markers(tracked)) = &outcome.tracking else { return LegMarkers::default() };
+        let subject = &tracked.body.subject;
+        let legs = subject.model.anatomy().legs();
+        let segments = Side::BOTH.into_iter().filter_map(|side| legs[side].as_ref());
+        let mut found = LegMarkers::default();
+        for body in segments.flat_map(|leg| [leg.thigh, leg.shank]) {
+            let own = subject.model.markers().iter().filter(|marker| marker.body == Some(body));
+            let (at_joints, mut technical): (Vec<_>, Vec<_>) = own
+                .map(|marker| marker.name.clone())
+                .partition(|name| subject.weights.get(name).is_none_or(|weight| *weight >= AT_JOINT));
+            found.dropped.extend(technical.split_off(technical.len().min(KEPT)));
+            found.at_joints.extend(at_joints);
+            found.kept.extend(technical);
+        }
+        found
     }
-    found
+
+    /// The recording and its standing trial with few names.
+    fn renamed(&self, mut source: Source) -> Result<Source, String> {
+        let Recording::Markers(markers) = &mut source.recording else { return Err("no markers".to_owned()) };
+        let still = markers.standing.as_ref().ok_or("no standing trial")?;
+        let mut still = LaboratoryFile::clone(still);
+        self.rename(&mut still.recording.markers.markers);
+        let moving = &mut markers.trial.recording.markers.markers;
+        moving.retain(|path| !self.at_joints.contains(&path.name));
+        self.rename(moving);
+        markers.standing = Some(Arc::new(StandingTrial::new(still)));
+        Ok(source)
+    }
+
+    fn rename(&self, paths: &mut Vec<MarkerPath>) {
+        paths.retain(|path| !self.dropped.contains(&path.name));
+        for path in paths {
+            if let Some(number) = self.kept.iter().position(|name| *name == path.name) {
+                path.name = format!("m{}", number + 1);
+            }
+        }
+    }
 }
 
-/// Root mean square difference of a moment of both legs in the frames of both [N.m/kg].
-fn difference([recorded, renamed]: [&Outcome; 2], joint: &str) -> f64 {
-    let grids = [recorded, renamed].map(|outcome| outcome.analysis.trajectory.grid());
+/// Error of the predicted vertical force, mean of the feet [% of body weight]; `None` where no plate measured a foot.
+fn vertical_error(outcome: &Outcome) -> Option<f64> {
+    let feet = &outcome.prediction.as_ref()?.agreement.as_ref()?.feet;
+    Some(feet.iter().map(|foot| 100.0 * foot.vertical.rmse_bw).sum::<f64>() / feet.len() as f64)
+}
+
+/// Root mean square difference of a measured moment of both legs in the frames of both [N.m/kg].
+fn difference(outcomes: [&Outcome; 2], joint: &str) -> Option<f64> {
+    let measured: Vec<&Analysis> =
+        outcomes.iter().filter_map(|outcome| outcome.prediction.as_ref()?.measured.as_ref()).collect();
+    let [recorded, renamed] = measured[..] else { return None };
+    let grids = [recorded, renamed].map(|analysis| analysis.trajectory.grid());
     let shift = ((grids[1].start_s - grids[0].start_s) / grids[0].step_s).round() as i64;
     let (mut count, mut sum) = (0.0, 0.0);
     for side in Side::BOTH {
-        let name = format!("{joint}_{}", side.letter());
-        let moments = [recorded, renamed].map(|outcome| {
-            let id = outcome.body.coordinate(&name);
-            id.map_or(&[][..], |id| &outcome.complete().forces.generalized[id.index()])
-        });
-        for (frame, moment) in moments[1].iter().enumerate() {
-            let other = usize::try_from(frame as i64 + shift).ok().and_then(|frame| moments[0].get(frame));
-            if let Some(other) = other {
+        let id = outcomes[0].body.coordinate(&format!("{joint}_{}", side.letter()))?.index();
+        for (frame, moment) in renamed.forces.generalized[id].iter().enumerate() {
+            let other = usize::try_from(frame as i64 + shift).ok();
+            let other = other.and_then(|frame| recorded.forces.generalized[id].get(frame));
+            if let Some(other) = other.filter(|other| other.is_finite() && moment.is_finite()) {
                 count += 1.0;
                 sum += (moment - other).powi(2);
             }
         }
     }
-    (sum / count).sqrt() / recorded.analysis.mass.kg
+    Some((sum / count).sqrt() / recorded.mass.kg)
 }

@@ -5,15 +5,12 @@
 //! in the clean recordings.
 
 use super::Chosen;
-use super::changes::{
-    clock, corners, cross_talk, delayed, exchanged, frozen, held, left_handed, mirrored_force, moved, other_stands,
-    pair, plate_silent, scaled, two_people, without,
-};
 use super::clean::{Files, is_tested, people};
+use super::faults::{FAULTS, Fault, NOT_GOOD};
 use ambulo::findings::Findings;
 use ambulo::job::{FileError, Job};
 use ambulo::study::validation::TextTable;
-use ambulo::study::{self, Outcome};
+use ambulo::study::{self, Outcome, QualityState};
 use ambulo_formats::c3d::{C3d, Storage};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -39,69 +36,6 @@ pub(super) struct Trial {
     pub(super) other: Pair,
 }
 
-/// A way to spoil a recording; `None` if it does not apply to it.
-struct Fault {
-    name: &'static str,
-    /// Any of these names it: codes of findings, or words of the error that refuses the file.
-    codes: &'static [&'static str],
-    spoil: fn(&mut Trial) -> Option<()>,
-}
-
-/// All kinds of faults.
-const FAULTS: &[Fault] = &[
-    Fault { name: "a plate measured nothing", codes: &["plates.silent"], spoil: |t| plate_silent(t) },
-    Fault { name: "cross-talk of 4 %", codes: &["plates.cross_talk"], spoil: |t| cross_talk(t, 0.04) },
-    Fault { name: "plates 30 ms late", codes: &["forces.delayed"], spoil: |t| delayed(t, 0.030) },
-    Fault { name: "plates 30 ms early", codes: &["forces.delayed"], spoil: |t| delayed(t, -0.030) },
-    Fault { name: "plates 60 ms late", codes: &["forces.delayed"], spoil: |t| delayed(t, 0.060) },
-    Fault { name: "every second frame held", codes: HELD, spoil: |t| held(t, |frame| frame - frame % 2) },
-    Fault { name: "20 Hz held as 100 Hz", codes: HELD, spoil: |t| held(t, |frame| frame - frame % 5) },
-    Fault { name: "second half frozen", codes: HELD, spoil: |t| frozen(t) },
-    Fault { name: "clock 1.6 times as fast", codes: CLOCK, spoil: |t| clock(t, 1.6) },
-    Fault { name: "clock 0.6 times as fast", codes: CLOCK, spoil: |t| clock(t, 0.6) },
-    Fault { name: "corners begin one further", codes: CORNERS, spoil: |t| corners(t, |[a, b, c, d]| [b, c, d, a]) },
-    Fault { name: "corners begin two further", codes: CORNERS, spoil: |t| corners(t, |[a, b, c, d]| [c, d, a, b]) },
-    Fault { name: "corners the other way round", codes: CORNERS, spoil: |t| corners(t, |[a, b, c, d]| [d, c, b, a]) },
-    Fault { name: "forces in kilonewton", codes: UNIT, spoil: |t| scaled(t, 1e-3) },
-    Fault { name: "lateral forces mirrored", codes: MIRRORED, spoil: |t| mirrored_force(t, false) },
-    Fault { name: "fore-aft forces mirrored", codes: MIRRORED, spoil: |t| mirrored_force(t, true) },
-    Fault { name: "left and right exchanged", codes: SIDES, spoil: |t| exchanged(&mut t.moving) },
-    Fault { name: "standing trial exchanged", codes: SIDES, spoil: |t| exchanged(t.standing.as_mut()?) },
-    Fault {
-        name: "both exchanged",
-        codes: SIDES,
-        spoil: |t| {
-            exchanged(&mut t.moving)?;
-            exchanged(t.standing.as_mut()?)
-        },
-    },
-    Fault { name: "an axis mirrored", codes: SIDES, spoil: |t| left_handed(t) },
-    Fault { name: "knees exchanged", codes: PAIR, spoil: |t| pair(t, &["LKNE", "L_FLE"]) },
-    Fault { name: "wrists exchanged", codes: PAIR, spoil: |t| pair(t, &["LWRA", "L_RSP"]) },
-    Fault { name: "knee marker 40 mm off", codes: MOVED, spoil: |t| moved(t, KNEES, ANKLES) },
-    Fault { name: "another person stands", codes: OTHER, spoil: |t| other_stands(t) },
-    Fault { name: "two people in the file", codes: SEVERAL, spoil: |t| two_people(t) },
-    Fault { name: "standing without a toe", codes: UNSEEN, spoil: |t| without(t.standing.as_mut()?, TOES) },
-    Fault { name: "standing without a heel", codes: UNSEEN, spoil: |t| without(t.standing.as_mut()?, HEELS) },
-];
-
-/// The file is refused with these words.
-const SEVERAL: &[&str] = &["has the markers of 2 people"];
-const HELD: &[&str] = &["motion.held_frames"];
-const CLOCK: &[&str] = &["motion.clock"];
-const CORNERS: &[&str] = &["plates.corners_ordered", "plates.corners_unclear"];
-const UNIT: &[&str] = &["plates.unit_by_weight"];
-const MIRRORED: &[&str] = &["plates.mirrored"];
-const SIDES: &[&str] = &["markers.sides_exchanged"];
-const PAIR: &[&str] = &["markers.swap"];
-const MOVED: &[&str] = &["markers.moved"];
-const OTHER: &[&str] = &["calibration.other_person", "calibration.other_limbs"];
-const UNSEEN: &[&str] = &["calibration.placed", "markers.not_measured"];
-const TOES: &[&str] = &["RTOE", "R_FM2", "RMT2", "R_FM1"];
-const KNEES: &[&str] = &["RKNE", "R_FLE"];
-const ANKLES: &[&str] = &["RANK", "R_FAL"];
-const HEELS: &[&str] = &["RHEE", "R_FCC", "RHEEL"];
-
 /// How many twins of each fault are named.
 pub(super) struct Spoiled {
     pub(super) table: TextTable,
@@ -109,6 +43,8 @@ pub(super) struct Spoiled {
     pub(super) clean: usize,
     /// Faults of which too few twins are named, or that too many clean recordings show.
     pub(super) failures: Vec<&'static str>,
+    /// What is said of the twins that are not named: the state of the quality and the tested codes, or the refusal.
+    pub(super) said: Vec<String>,
 }
 
 /// Spoils the first clean recording of each person in every way that is chosen, and counts how many are named.
@@ -124,9 +60,11 @@ pub(super) fn judged(data: &Path, chosen: &Chosen<'_>) -> Result<Spoiled, String
         table: TextTable::new(&["fault", "named", "of", "clean", "not named"]),
         clean: clean.len(),
         failures: Vec::new(),
+        said: Vec::new(),
     };
     for fault in FAULTS.iter().filter(|fault| fault.name.contains(chosen.fault)) {
-        let Twins { named, made, unnamed } = Twins::of(fault, &recordings, is_chosen)?;
+        let Twins { named, made, unnamed, said } = Twins::of(fault, &recordings, is_chosen)?;
+        found.said.extend(said);
         let is_false = |codes: &&BTreeSet<&str>| fault.codes.iter().any(|code| codes.contains(code));
         let falsely = clean.values().filter(is_false).count();
         let counts = [named, made, falsely].map(|count| count.to_string());
@@ -144,11 +82,13 @@ struct Twins {
     made: usize,
     /// The recordings whose twins are not named.
     unnamed: Vec<String>,
+    /// What is said of them instead.
+    said: Vec<String>,
 }
 
 impl Twins {
     fn of(fault: &Fault, recordings: &[Files], is_chosen: impl Fn(&Files) -> bool) -> Result<Twins, String> {
-        let mut twins = Twins { named: 0, made: 0, unnamed: Vec::new() };
+        let mut twins = Twins { named: 0, made: 0, unnamed: Vec::new(), said: Vec::new() };
         for (index, files) in recordings.iter().enumerate().filter(|(_, files)| is_chosen(files)) {
             let mut trial = Trial::read(files, &recordings[(index + 1) % recordings.len()])?;
             if (fault.spoil)(&mut trial).is_none() {
@@ -156,11 +96,18 @@ impl Twins {
             }
             twins.made += 1;
             let (found, outcome) = trial.codes();
-            let refusal = outcome.err().unwrap_or_default();
-            match fault.codes.iter().any(|code| found.contains(code) || refusal.contains(code)) {
-                true => twins.named += 1,
-                false => twins.unnamed.push(name(&files.trial)),
+            let refusal = outcome.as_ref().err().map_or("", String::as_str);
+            let is_good = outcome.as_ref().is_ok_and(|outcome| outcome.quality.state == QualityState::Good);
+            let is_named = fault.codes.iter().any(|code| found.contains(code) || refusal.contains(code));
+            if is_named || fault.codes == NOT_GOOD && !is_good {
+                twins.named += 1;
+                continue;
             }
+            let codes: Vec<&str> = found.into_iter().filter(|code| is_tested(code)).collect();
+            let said =
+                outcome.map_or_else(|why| why, |outcome| format!("{:?} {}", outcome.quality.state, codes.join(" ")));
+            twins.unnamed.push(name(&files.trial));
+            twins.said.push(format!("{}: {}: {said}", fault.name, name(&files.trial)));
         }
         Ok(twins)
     }

@@ -21,7 +21,9 @@ mod several;
 mod sides;
 
 pub(super) use completion::completed;
-pub(crate) use limbs::{OTHER as OTHER_LIMBS, difference as limb_difference, lengths as limb_lengths};
+pub(crate) use limbs::{
+    Limb, OTHER as OTHER_LIMBS, OTHER_WITHOUT_TWO as OTHER_LIMBS_WITHOUT_TWO, difference as limb_difference, limbs,
+};
 pub(super) use model_completion::completed_for_model;
 pub(super) use moved::moved;
 pub(super) use several::refuse_several;
@@ -39,8 +41,8 @@ pub(super) type Contradictions = Vec<String>;
 
 /// Reports a standing trial of another person, and markers that moved between standing trial and motion.
 ///
-/// One or two moved markers change the lengths of limbs too. The lengths are therefore used only where they differ by
-/// more than that, or where no single marker explains the difference.
+/// One or two moved markers change the lengths of limbs too. Where some moved, the limbs that they may have changed are
+/// left out.
 pub(super) fn report_standing_trial(
     [moving, standing]: [&MarkerRecording; 2],
     moved: &[String],
@@ -48,10 +50,10 @@ pub(super) fn report_standing_trial(
     contradictions: &mut Contradictions,
     findings: &mut Findings,
 ) {
-    const BY_FAR: f64 = 2.0;
-    let share = limb_difference(&limb_lengths(moving, set), &limb_lengths(standing, set)).unwrap_or(0.0);
     let are_few = (1..moved::ANOTHER_PERSON).contains(&moved.len());
-    if share > BY_FAR * OTHER_LIMBS || share > OTHER_LIMBS && !are_few {
+    let (left_out, limit) = if are_few { (2, OTHER_LIMBS_WITHOUT_TWO) } else { (0, OTHER_LIMBS) };
+    let difference = limb_difference(&limbs(moving, set), &limbs(standing, set), left_out);
+    if difference.is_some_and(|difference| difference > limit) {
         limbs::report_other_limbs(moving, standing, set, contradictions, findings);
     } else if !moved.is_empty() {
         moved::report_moved(moved, contradictions, findings);
