@@ -1,7 +1,8 @@
 //! Parameters of the estimate: standard deviations and lengths, dimensionless or in seconds.
 
 use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
-use super::stance_errors::{ErrorsByDescent, StanceCurve, StanceErrors};
+use super::stance_errors::{ErrorsByTraits, StanceCurve, StanceErrors};
+use super::stance_traits::TRAITS;
 
 /// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`;
 /// docs/measured/GROUND_FIT.md has their leave-one-out errors and sensitivities.
@@ -38,7 +39,7 @@ pub struct FittedParameters {
     /// Lateral distance of the centre of pressure from the middle of the foot [stature].
     pub center_outwards: f64,
     /// Mean errors of the estimate in walking, which are taken off.
-    pub errors: ErrorsByDescent,
+    pub errors: ErrorsByTraits,
     /// Calibration of the standard deviations with measured errors.
     pub calibration: DeviationCalibration,
 }
@@ -82,7 +83,7 @@ impl Default for FittedParameters {
 }
 
 /// Mean errors that also occur in subjects and laboratories left out.
-const ERRORS: ErrorsByDescent = ErrorsByDescent {
+const ERRORS: ErrorsByTraits = ErrorsByTraits {
     usual: StanceErrors {
         force: [
             StanceCurve([
@@ -106,16 +107,7 @@ const ERRORS: ErrorsByDescent = ErrorsByDescent {
             StanceCurve::NONE,
         ],
     },
-    by_descent: [
-        StanceCurve([
-            0.0, 0.06188, 0.09082, 0.06122, 0.02289, -0.00408, -0.03522, -0.01089, 0.00326, 0.00956, -0.01702,
-            -0.05134, -0.02801, 0.00744, 0.0,
-        ]),
-        StanceCurve([
-            0.0, -0.16254, -0.24906, -0.17144, -0.12418, -0.13146, 0.02458, 0.0216, -0.00628, -0.04288, 0.02838,
-            0.06395, 0.05238, 0.14545, 0.0,
-        ]),
-    ],
+    changes: [[StanceCurve::NONE; TRAITS]; 3],
 };
 
 /// Calibration from the errors of subjects whose laboratory was left out.
@@ -148,4 +140,6 @@ const CALIBRATION: DeviationCalibration = DeviationCalibration {
     of_misfit: 0.5,
     of_center_misfit: 0.4,
     of_sideways: 0.1,
+    of_haste: [1.0, 1.0, 0.7],
+    of_smoothed: 0.3,
 };

@@ -2,11 +2,13 @@
 
 use super::FootDeviation;
 use super::deviation_calibration::{Misfit, scaling_at};
+use super::evidence_filter::is_smoothed;
 use super::expected::Expectation;
 use super::forefoot::on_touching_part;
 use super::geometry::nearest_on_sole;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
+use super::stance_traits::HASTE;
 use super::stances::{GaitType, Stance};
 use super::unknowns::Curve;
 use crate::model::Side;
@@ -85,6 +87,7 @@ pub(super) fn loads(
         height: vec![0.0; frames],
         deviation: FootDeviation { side, force: zeros(), center: zeros(), free_moment: vec![0.0; frames] },
     };
+    let is_smoothed = is_smoothed(inputs.motion_bandwidth_hz);
     let own = inputs.stances.iter().zip(estimates).zip(misfits).filter(|((stance, _), _)| stance.side == side);
     for ((stance, estimates), misfit) in own {
         for (frame, at) in frames_of(inputs, stance).zip(estimates).filter(|(frame, _)| wanted.contains(frame)) {
@@ -111,11 +114,13 @@ pub(super) fn loads(
             let deviation = &mut out.deviation;
             let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
             let remaining = inputs.remaining(stance);
+            let haste = if stance.gait == GaitType::Walk { stance.traits[HASTE] } else { 0.0 };
             let weight = inputs.body_scale.weight_n;
             let calibration = &inputs.parameters.calibration;
             let spread = |axis: usize, of: &Estimate| {
                 let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
-                remaining * (scaled + calibration.of_trial(axis, misfit, right.value))
+                let wider = calibration.widening(axis, haste, is_smoothed).powi(2);
+                remaining * wider * (scaled + calibration.of_trial(axis, misfit, right.value))
             };
             deviation.force[frame] =
                 rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
@@ -139,7 +144,7 @@ impl EstimateInputs<'_> {
         }
         let (side, errors) = (stance.side, &self.parameters.errors);
         let own = self.person.map_or(([0.0; 3], [0.0; 2]), |p| (p.force(side, phase), p.center(side, phase)));
-        let (force, center) = (errors.force(side, phase, stance.descent), errors.usual.center(side, phase));
+        let (force, center) = (errors.force(side, phase, &stance.traits), errors.usual.center(side, phase));
         for (of, error) in estimates.iter_mut().zip((0..3).map(|axis| force[axis] + own.0[axis])) {
             of.value += error * self.body_scale.weight_n;
         }
