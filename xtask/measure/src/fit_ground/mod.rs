@@ -1,5 +1,5 @@
 //! Fits the parameters of the ground-force estimator:
-//! `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write] [--keep]`.
+//! `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--search] [--write] [--keep]`.
 //!
 //! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has
 //! changed. Fits the numbers of `ambulo::ground::predict::FittedParameters` to recordings with plates of the people of
@@ -45,10 +45,14 @@ struct Order {
     pull: f64,
     write: bool,
     keep: bool,
+    /// Whether the numbers are searched again; otherwise those of the crate stay, and without a laboratory those that
+    /// were found last.
+    search: bool,
 }
 
 impl Order {
-    const DEFAULT: Order = Order { evaluations: EVALUATIONS, seed: SEED, pull: PULL, write: false, keep: false };
+    const DEFAULT: Order =
+        Order { evaluations: EVALUATIONS, seed: SEED, pull: PULL, write: false, keep: false, search: false };
 }
 
 /// How the parameters were fitted with which a subject is predicted.
@@ -145,11 +149,13 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         );
     }
     let cases = cases::load(&data, &mut |label| progress(&format!("loading {label}")))?;
-    let outcome = outcome(&cases, &order);
+    let outcome = outcome(&cases, &order)?;
     let page = page::text(&order, &outcome);
-    let path = workspace::root().join(NUMBERS_LEFT_OUT);
-    fs::write(&path, numbers::written(&outcome.numbers_left_out))
-        .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    if order.search {
+        let path = workspace::root().join(NUMBERS_LEFT_OUT);
+        fs::write(&path, numbers::written(&outcome.numbers_left_out))
+            .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    }
     if order.keep {
         gate::keep(&outcome.groups)?;
     }
@@ -182,6 +188,7 @@ fn order(words: &[String]) -> Result<Order, String> {
         match word.as_str() {
             "--write" => order.write = true,
             "--keep" => order.keep = true,
+            "--search" => order.search = true,
             "--evaluations" => order.evaluations = number()?.max(1.0) as usize,
             "--seed" => order.seed = number()? as u64,
             "--pull" => order.pull = number()?,
@@ -217,18 +224,29 @@ impl Numbers {
 /// Numbers that were fitted without each laboratory that has a part in them, relative to the workspace root.
 const NUMBERS_LEFT_OUT: &str = "xtask/measure/src/fit_ground/numbers_left_out.csv";
 
-/// Parameters for each laboratory that were fitted and calibrated without it, in the order of the recordings. Numbers
-/// are those that [`run`] has found and written.
+/// Parameters for each laboratory that were fitted and calibrated without it, in the order of the recordings.
 pub(crate) fn laboratories_left_out(data: &Path) -> Result<Vec<(&'static str, FittedParameters)>, String> {
     let all = cases::load(data, &mut |label| progress(&format!("loading {label}")))?;
-    let path = workspace::root().join(NUMBERS_LEFT_OUT);
-    let text = fs::read_to_string(&path)
-        .map_err(|e| format!("{}: {e}. hint: `cargo xtask fit-ground` writes it", path.display()))?;
-    let known = numbers::read(&text);
-    let numbers = |laboratory: &str| known.iter().find(|(name, _)| name == laboratory).map(|(_, found)| *found);
-    let fits = without_each_laboratory(&all, &Numbers::of(&all, numbers::unfitted()), &numbers);
+    let (own, left_out) = known_numbers(&all)?;
+    let of = |laboratory: &str| of_laboratory(&left_out, laboratory).copied();
+    let fits = without_each_laboratory(&all, &Numbers::of(&all, own), &of);
     let judged = Judged::new(all.all(), &|laboratory| of_laboratory(&fits, laboratory));
     Ok(calibrated(&fits, &judged))
+}
+
+/// The numbers of the crate, and those that [`all_numbers`] has found last without each laboratory.
+fn known_numbers(all: &Cases) -> Result<(FittedParameters, Vec<(&'static str, FittedParameters)>), String> {
+    let path = workspace::root().join(NUMBERS_LEFT_OUT);
+    let hint = "hint: `cargo xtask fit-ground --search` writes it";
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}. {hint}", path.display()))?;
+    let known = numbers::read(&text);
+    let of = |laboratory: &'static str| {
+        let found = known.iter().find(|(name, _)| name == laboratory).map(|(_, found)| (laboratory, *found));
+        found.ok_or_else(|| format!("{}: no numbers without {laboratory}. {hint}", path.display()))
+    };
+    let laboratories = cases::named(all.whole.iter().map(|case| case.laboratory));
+    let left_out = laboratories.into_iter().map(of).collect::<Result<Vec<_>, String>>()?;
+    Ok((numbers::unfitted(), left_out))
 }
 
 /// Numbers fitted to everybody who has a part in them, and without each of their laboratories; the fits run side by
@@ -279,10 +297,10 @@ fn calibrated(fits: &[(&'static str, FittedParameters)], judged: &Judged) -> Vec
     fits.iter().map(with).collect()
 }
 
-fn outcome(all: &Cases, order: &Order) -> Outcome {
+fn outcome(all: &Cases, order: &Order) -> Result<Outcome, String> {
     let cases = &all.whole;
     let subjects = cases::subjects(cases);
-    let (of_everybody, left_out) = all_numbers(all, order);
+    let (of_everybody, left_out) = if order.search { all_numbers(all, order) } else { known_numbers(all)? };
     let numbers = Numbers::of(all, of_everybody);
     let fits = without_each_laboratory(all, &numbers, &|laboratory| of_laboratory(&left_out, laboratory).copied());
     // Everybody is predicted with the parameters fitted on other laboratories: these are the errors of strangers.
@@ -304,7 +322,7 @@ fn outcome(all: &Cases, order: &Order) -> Outcome {
         let calibration = of_laboratory(&laboratories, laboratory).map_or(own.calibration, |fit| fit.calibration);
         (subject, laboratory, judged.bands(subject, &calibration))
     });
-    Outcome {
+    Ok(Outcome {
         cost: least,
         cost_of_middle: cost(&parameters(&[0.5; NUMBERS.len()])),
         cost_of_shipped: cost(&FittedParameters::default()),
@@ -315,7 +333,7 @@ fn outcome(all: &Cases, order: &Order) -> Outcome {
         groups: gate::by_group(all.all(), &|laboratory| of_laboratory(&laboratories, laboratory)),
         parameters: own,
         laboratories,
-    }
+    })
 }
 
 /// The results of one of the people to whom the numbers are fitted.

@@ -14,6 +14,11 @@ const FORCES: [&str; 3] = ["up", "forward", "sideways"];
 pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
     let Order { evaluations, seed, pull, .. } = *order;
     let laboratories = outcome.laboratories.len();
+    let searched = if order.search {
+        "All numbers were searched again."
+    } else {
+        "The numbers of the crate stayed as they are, and without a laboratory those of the last search (`--search`)."
+    };
     let head = format!(
         "# Fit of the ground-force estimator\n\n\
          Settings: `--evaluations {evaluations} --seed {seed} --pull {pull}`. The numbers of \
@@ -32,7 +37,7 @@ pub(super) fn text(order: &Order, outcome: &Outcome) -> String {
          across, and counts half. \
          Runs are left out. Added to it is {pull} x the sum over the numbers of their squared distance from the middle \
          of the range, as a share of the \
-         range: what recordings do not tell stays in the middle. Costs below are without it.\n"
+         range: what recordings do not tell stays in the middle. Costs below are without it. {searched}\n"
     );
     let values = format!(
         "{}\nCost with all subjects: {:.3} in the middle of the ranges, {:.3} fitted, {:.3} with the numbers that the \

@@ -25,8 +25,8 @@ const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
 /// As above, for the curve of a usual stance and for its changes with descent, haste and leg length: of the force
-/// forward, up and outwards. Chosen among 0.03 to 10 and [`UNUSED`] by the errors of people whose laboratory was left
-/// out, of the choices that make no group of people worse by more than 2 % (docs/GROUND_FORCES.md).
+/// forward, up and outwards. Chosen among 0.03 to 10 and [`UNUSED`] by the mean errors of groups of people whose
+/// laboratory was left out (docs/GROUND_FORCES.md; the gate of docs/measured/GROUND_FIT.md has each group).
 const RIDGES: [[f64; 1 + TRAITS]; 3] =
     [[2.0, UNUSED, UNUSED, UNUSED], [1.0, 0.1, 0.1, UNUSED], [0.1, UNUSED, UNUSED, 0.3]];
 /// The ridge of a change that does not help people of other laboratories.
