@@ -87,7 +87,6 @@ pub(super) fn loads(
         height: vec![0.0; frames],
         deviation: FootDeviation { side, force: zeros(), center: zeros(), free_moment: vec![0.0; frames] },
     };
-    let is_smoothed = is_smoothed(inputs.motion_bandwidth_hz);
     let own = inputs.stances.iter().zip(estimates).zip(misfits).filter(|((stance, _), _)| stance.side == side);
     for ((stance, estimates), misfit) in own {
         for (frame, at) in frames_of(inputs, stance).zip(estimates).filter(|(frame, _)| wanted.contains(frame)) {
@@ -114,16 +113,10 @@ pub(super) fn loads(
             let deviation = &mut out.deviation;
             let run_factor = if stance.gait == GaitType::Run { RUN_DEVIATION } else { 1.0 };
             let remaining = inputs.remaining(stance);
-            let haste = if stance.gait == GaitType::Walk { stance.traits[HASTE] } else { 0.0 };
             let weight = inputs.body_scale.weight_n;
             let calibration = &inputs.parameters.calibration;
-            let spread = |axis: usize, of: &Estimate| {
-                let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
-                let wider = calibration.widening(axis, haste, is_smoothed).powi(2);
-                remaining * wider * (scaled + calibration.of_trial(axis, misfit, right.value))
-            };
-            deviation.force[frame] =
-                rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
+            let of_forces = inputs.force_variances(stance, phase, misfit, [&forward, &up, &right]);
+            deviation.force[frame] = rotated(axes, of_forces) * run_factor;
             let [along, across] = [(0, &about_right), (1, &about_forward)].map(|(axis, of)| {
                 let scaled = calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0);
                 remaining * (scaled + calibration.center_of_trial(axis, misfit))
@@ -150,6 +143,19 @@ impl EstimateInputs<'_> {
         }
         let [along, across] = [0, 1].map(|axis| (center[axis] + own.1[axis]) * self.body_scale.height_m);
         stance.forward * along + stance.right * across
+    }
+
+    /// Calibrated variances of the forces forward, up and to the right [N²].
+    fn force_variances(&self, stance: &Stance, phase: f64, misfit: &Misfit, forces: [&Estimate; 3]) -> [f64; 3] {
+        let calibration = &self.parameters.calibration;
+        let haste = if stance.gait == GaitType::Walk { stance.traits[HASTE] } else { 0.0 };
+        let is_smoothed = is_smoothed(self.motion_bandwidth_hz);
+        std::array::from_fn(|axis| {
+            let scaling = scaling_at(&calibration.force[axis], phase);
+            let scaled = scaling.variance(forces[axis].variance, self.body_scale.weight_n);
+            let wider = calibration.widening(axis, haste, is_smoothed).powi(2);
+            self.remaining(stance) * wider * (scaled + calibration.of_trial(axis, misfit, forces[2].value))
+        })
     }
 
     /// Share of the variance of the errors that remains for this person.
