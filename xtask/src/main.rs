@@ -65,14 +65,15 @@ usage: cargo xtask <command>
   reproduction      recompute the 1997 paper and print its claims  [--write: docs/measured/REPRODUCTION.md]
   figures           draw docs/images/ again with the `ambulo` command and a headless Chromium
   fit-gait          fit the laws of joints and ground forces against speed to normative curves; prints their errors
-  fit-ground        fit the parameters of the ground-force estimator, leave one subject out  [--write: docs/measured/GROUND_FIT.md]
+  fit-ground        fit the parameters of the ground-force estimator, leave people and laboratories out
+                    [--keep: errors for the gate of the next version] [--write: docs/measured/GROUND_FIT.md]
                     [--evaluations N] [--seed N] [--pull X]
   keypoints         forces from keypoints of video, and from keypoints made from recordings with markers  [--only NAME] [--seed S]
   normative-bands   write the normative bands of page and figures from the tables next to the workspace
   twins             judge recordings, and altered copies of them: faults of laboratories, motions that no person could make, plates
                     that were taken away  [--only NAME] [--fault NAME] [--write: docs/measured/TWINS.md]
   validate          compare predicted ground forces with force plates for all recordings  [--write: docs/measured/VALIDATION.md]
-  validate-people   the same by kind of person and laboratory, also of those who had no part in the fit  [--write: docs/measured/PEOPLE.md]
+  validate-people   the same by kind of person and laboratory, each predicted without the own laboratory  [--write: docs/measured/PEOPLE.md]
   walk-plans        solve the walks of the built-in figures: crates/ambulo-walk/data/walks
   optimal-peers     solve one problem of optimal motion with our solver, CasADi and Moco, and record the outcomes
                     [--env DIR] [--resume: keep results of peers]  [--write: docs/measured/OPTIMAL_PEERS.md from the record]

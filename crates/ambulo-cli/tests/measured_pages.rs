@@ -195,40 +195,43 @@ fn predicted_forces_have_the_errors_of_the_pages() {
     assert!(compared >= 280, "{compared}");
 }
 
-/// The walk of KU Leuven: its person is the only one of the laboratory.
+/// The run of OpenSim: fits of mean errors, which leave laboratories out, do not change runs.
 #[test]
 fn predicted_forces_of_a_laboratory_have_the_errors_of_the_page() {
     let Some(data) = shared_data::data() else { return };
     let bench = Workbench::empty("measured_pages_people");
-    let path = |name: &str| data.join("kuleuven-walk-squat").join(name).display().to_string();
-    let (markers, plates) = (path("markers.trc"), path("grf.mot"));
-    let run = bench.run(&[
-        "forces",
-        &markers,
-        "--predict",
-        "--mass",
-        "64.6",
-        "--grf",
-        &plates,
-        "--right",
-        "calcn_r:1_ground_force_",
-        "--left",
-        "calcn_l:ground_force_",
-        "--keep",
-        "summary",
-        "--json",
-        "-o",
-        "out",
-    ]);
+    let path = |name: &str| data.join("opensim-rajagopal-run").join(name).display().to_string();
+    let (markers, standing, plates) = (path("motion_capture_run.trc"), path("static_run.trc"), path("grf_run.mot"));
+    let size = ["--static", &standing, "--mass", "72.84", "--height", "1.8"];
+    let sides = ["--grf", &plates, "--right", "calcn_r:R_ground_force_", "--left", "calcn_l:L_ground_force_"];
+    let output = ["--predict", "--keep", "summary", "--json", "-o", "out"];
+    let run = bench.run(&[&["forces", markers.as_str()][..], &size, &sides, &output].concat());
     let summary: Value = serde_json::from_str(&run.done().stdout).unwrap();
     let feet = summary["comparison"]["feet"].as_array().unwrap();
     let of = |key: &str, figure: &str, factor: f64| mean(feet, |foot| factor * number(&foot[key][figure]));
     let errors = COMPONENTS.iter().flat_map(|(_, key)| [of(key, "rmse_bw", 100.0), of(key, "r", 1.0)]);
     let centres = ["fore_aft_weighted_mm", "lateral_weighted_mm"].map(|figure| of("center_of_pressure", figure, 1.0));
     let page = MeasuredPage::read("PEOPLE");
-    let row = page.row("## The same, by laboratory", &["KU Leuven", "adults", "walking"]);
+    let row = page.row("## The same, by laboratory", &["OpenSim, run", "runners", "running"]);
     for (cell, found) in row[5..].iter().zip(errors.chain(centres)) {
-        page.compare("KU Leuven", cell, found);
+        page.compare("OpenSim, run", cell, found);
+    }
+}
+
+/// The curves of the mean errors and the floors of the deviations are those that the fit has found.
+#[test]
+fn the_fitted_curves_are_those_of_the_page() {
+    let page = MeasuredPage::read("GROUND_FIT");
+    let FittedParameters { errors, calibration, .. } = FittedParameters::default();
+    let row = page.row("## Mean errors that are taken off", &["0.10"]);
+    let curves = [&errors.usual.force[1], &errors.changes[1][0], &errors.changes[1][1], &errors.usual.force[0]];
+    for (cell, curve) in row[1..].iter().step_by(2).zip(curves) {
+        page.compare("mean error at a tenth of the stance", cell, 100.0 * curve.at(0.1));
+    }
+    for (component, fifths) in ["force forward", "force up", "force sideways"].iter().zip(&calibration.force) {
+        let row = page.row("## Standard deviations: factor and floor", &[component, "0.1"]);
+        page.compare(component, row[3], fifths[0].factor);
+        page.compare(component, row[4], fifths[0].floor);
     }
 }
 

@@ -106,6 +106,7 @@ struct Readme;
 pub mod internals {
     pub use crate::analysis::feasibility::spans::Track;
     pub use crate::analysis::foot_progression::{inwards, level_axes};
+    pub use crate::analysis::motion_bandwidth::{HIGHEST_HZ, bandwidth};
     pub use crate::analysis::prediction_checks::base_of_support::BaseOfSupport;
     pub use crate::analysis::prediction_checks::sustained::sustained_maximum;
     pub use crate::analysis::progress::Progress;
@@ -118,6 +119,7 @@ pub mod internals {
     pub use crate::ground::predict::forefoot::heel_down;
     pub use crate::ground::predict::geometry::FootPlace;
     pub use crate::ground::predict::stance_curves::StanceCurves;
+    pub use crate::ground::predict::stance_traits::traits;
     pub use crate::ground::predict::stances::{BodyScale, GaitType, Stance};
     pub use crate::ground::predict::strike_descent::{CenterVelocity, MOST, Strike as DescentStrike, USUAL, descents};
     pub use crate::ground::predict::unilateral::{unilateral_share, within_friction_cone};

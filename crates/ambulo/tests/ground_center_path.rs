@@ -1,6 +1,6 @@
 //! The expected path of the centre of pressure under a foot, from the motion alone.
 
-use ambulo::ground::predict::FittedParameters;
+use ambulo::ground::predict::{FittedParameters, TRAITS};
 use ambulo::internals::{BodyScale, FootPlace, GaitType, Stance, center_path, heel_down, share};
 use ambulo::model::Side;
 use ambulo::spatial::Vec3;
@@ -25,7 +25,7 @@ fn level_stance(heel_down_s: Option<f64>) -> Stance {
         gait: GaitType::Walk,
         heel_down_s,
         on_stairs: false,
-        descent: 0.0,
+        traits: [0.0; TRAITS],
         knots: vec![[0.0, 0.0], [0.6, 1.0]],
     }
 }

@@ -34,3 +34,12 @@ fn a_factor_multiplies_the_deviation_and_a_floor_is_added_in_squares() {
     assert!((deviation - (9.0_f64 + 9.0).sqrt()).abs() < 1e-12, "{deviation}");
     assert!((DeviationScaling::UNSCALED.variance(4.0, 100.0) - 4.0).abs() < 1e-12);
 }
+
+#[test]
+fn haste_widens_each_force_and_smoothing_the_vertical_one() {
+    let calibration =
+        DeviationCalibration { of_haste: [1.0, 0.5, 0.0], of_smoothed: 0.2, ..DeviationCalibration::UNSCALED };
+    let found = [0, 1, 2].map(|axis| calibration.widening(axis, 2.0, true));
+    assert!(found.iter().zip([3.0, 2.4, 1.0]).all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-12), "{found:?}");
+    assert!((calibration.widening(1, 0.0, false) - 1.0).abs() < 1e-12);
+}

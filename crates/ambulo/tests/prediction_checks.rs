@@ -11,6 +11,7 @@ use ambulo::analysis::{
     PredictionInput, analyse_predicted_trajectory, cycles, prediction_checks,
 };
 use ambulo::findings::{Code, Findings};
+use ambulo::gait::Gait;
 use ambulo::ground::predict::{PredictSettings, Prediction, predict};
 use ambulo::ground::{BodyForces, GroundForces};
 use ambulo::kinematics::Trajectory;
@@ -19,7 +20,7 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{BySide, Model};
 use ambulo::motion::TimeGrid;
-use ambulo::simulation::synthetic::SyntheticWalk;
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalk, SyntheticWalkSettings, synthesise};
 use ambulo::spatial::{Inertia, Vec3};
 use std::sync::LazyLock;
 
@@ -276,6 +277,28 @@ fn forces_of_the_feet_that_do_not_balance_the_motion_are_detected() {
     assert_eq!(pushed, (vec!["fore_aft_impulse".to_owned()], vec![Code::PredictionImpulse]));
     let slippery = changed(&|f| f + Vec3::z() * (0.8 * f.y));
     assert_eq!(slippery, (vec!["friction".to_owned()], vec![Code::PredictionFriction]));
+}
+
+#[test]
+fn a_fast_walk_that_was_smoothed_before_it_was_recorded_is_doubted_and_a_free_one_is_not() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 72.6, height: 1.80, toe_joint: false };
+    let found = |gait: &str, bandwidth_hz: Option<f64>| {
+        let gait = Gait::named(gait).unwrap();
+        let settings =
+            SyntheticWalkSettings { gait: &gait, build, mode: SyntheticMode::Paper, cycles: 1, rate_hz: 100.0 };
+        let walk = synthesise(&settings, &mut Findings::default()).unwrap();
+        let soles = Person::of_human(&walk.human).soles;
+        let (checks, findings) = checked_after(&walk.human.model, &walk.trajectory, &soles, None, |prediction| {
+            prediction.motion_bandwidth_hz = bandwidth_hz;
+        });
+        let check = checks.get("motion_bandwidth").unwrap().clone();
+        assert_eq!(check.passed == Some(false), findings.has(Code::PredictionMotionSmoothed));
+        check.passed
+    };
+    assert_eq!(found("fast", Some(6.0)), Some(false));
+    assert_eq!(found("fast", Some(12.0)), Some(true));
+    assert_eq!(found("fast", None), None);
+    assert_eq!(found("slow", Some(6.0)), Some(true));
 }
 
 // ---- mass ----

@@ -10,6 +10,7 @@
 use ambulo::analysis::{
     CenterAgreement, ComparedSample, ComparedStance, EventAgreement, EventKind, GroundAgreement, Mass, MassSource,
 };
+use ambulo::ground::predict::TRAITS;
 use ambulo::model::Side;
 use ambulo::study::QualityState;
 use ambulo::study::validation::{
@@ -41,7 +42,7 @@ fn stance(off: [f64; 5]) -> ComparedStance {
     ComparedStance {
         side: Side::Right,
         span_s: [0.0, 0.7],
-        strike_descent: 0.0,
+        traits: [0.0; TRAITS],
         samples: (0..100).map(sample).collect(),
     }
 }

@@ -10,7 +10,6 @@ mod fit_gait;
 mod fit_ground;
 mod harmonics;
 mod keypoints;
-mod motion_bandwidth;
 mod normative;
 mod normative_bands;
 mod optimal_peers;

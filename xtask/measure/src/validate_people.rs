@@ -1,19 +1,18 @@
 //! Errors of the predicted ground forces by kind of person, kind of movement and laboratory:
 //! `cargo xtask validate-people [--each] [--write]`; `--each` prints every trial as well.
 //!
-//! Every recording of the development data is processed as by `ambulo forces --predict`, also those of people and
-//! laboratories that took no part in the fit of the estimator. Means are over feet, then trials, then persons, then
-//! laboratories: a laboratory counts once, however many people it recorded. The page has no figure of a single person
-//! of data that may only be used for fitting and testing.
+//! Every recording of the development data is processed as by `ambulo forces --predict`, with parameters of the
+//! estimator that are fitted here without the laboratory of the recording. Means are over feet, then trials, then
+//! persons, then laboratories: a laboratory counts once, however many people it recorded. The page has no figure of a
+//! single person of data that may only be used for fitting and testing.
 
-use crate::motion_bandwidth::bandwidth;
+use crate::fit_ground;
 use crate::validate::recording::{self, Group, Population, Recording};
 use crate::workspace;
 use ambulo::analysis::GroundAgreement;
 use ambulo::findings::Findings;
-use ambulo::ground::predict::Prescribed;
+use ambulo::ground::predict::FittedParameters;
 use ambulo::numerics;
-use ambulo::study::Recording as Recorded;
 use ambulo::study::validation::baselines::Baseline;
 use ambulo::study::validation::{Component, Figure, JudgedTrial, LegJoint, Method, NotJudged, TextTable as Table};
 use std::path::Path;
@@ -49,11 +48,9 @@ const FIGURES: [(&str, Figure, usize); 17] = [
 /// A recording that was judged.
 struct Judged {
     recording: Recording,
-    /// Whether it was part of the fit.
-    is_fitted: bool,
     /// The recognised activity.
     activity: &'static str,
-    /// Of the recorded markers, if there are any [Hz].
+    /// Of the recorded motion; not a number where it is not known [Hz].
     bandwidth_hz: f64,
     trial: JudgedTrial,
 }
@@ -68,10 +65,12 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         println!("skipped: no data");
         return Ok(());
     }
+    let fits = fit_ground::laboratories_left_out(&data)?;
     let (mut judged, mut not_judged) = (Vec::new(), Vec::new());
-    let fitted = recording::all().into_iter().map(|recording| (recording, recording.group != Group::Running));
-    for (recording, is_fitted) in fitted.chain(recording::further().into_iter().map(|recording| (recording, false))) {
-        match judge(recording, is_fitted, &data).map_err(|e| format!("{}: {e}", recording.label))? {
+    for recording in recording::all().into_iter().chain(recording::further()) {
+        let fit = fits.iter().find(|(laboratory, _)| *laboratory == recording.laboratory);
+        let parameters = fit.map_or_else(FittedParameters::default, |(_, parameters)| *parameters);
+        match judge(recording, parameters, &data).map_err(|e| format!("{}: {e}", recording.label))? {
             Ok(one) => judged.push(one),
             Err(reason) => not_judged.push((recording, reason)),
         }
@@ -88,46 +87,44 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
 }
 
 /// An error, or why plates cannot judge the trial.
-fn judge(recording: Recording, is_fitted: bool, data: &Path) -> Result<Result<Judged, NotJudged>, String> {
+fn judge(recording: Recording, parameters: FittedParameters, data: &Path) -> Result<Result<Judged, NotJudged>, String> {
     let source = recording.read(data)?;
-    let bandwidth_hz = match &source.recording {
-        Recorded::Markers(markers) => bandwidth(&markers.trial.recording.markers),
-        _ => None,
-    };
-    let bandwidth_hz = bandwidth_hz.unwrap_or(f64::NAN);
-    let outcome = recording.predict(&source, Prescribed::default())?;
+    let outcome = recording.predict_with(&source, parameters)?;
+    let found = outcome.prediction.as_ref().and_then(|found| found.prediction.motion_bandwidth_hz);
     let trial = JudgedTrial::of(recording.label, recording.subject, &outcome, &Findings::default());
-    Ok(trial.map(|trial| Judged { recording, is_fitted, activity: outcome.activity.kind.words(), bandwidth_hz, trial }))
+    Ok(trial.map(|trial| Judged {
+        recording,
+        activity: outcome.activity.kind.words(),
+        bandwidth_hz: found.unwrap_or(f64::NAN),
+        trial,
+    }))
 }
 
 fn page(judged: &[Judged], not_judged: &[(Recording, NotJudged)]) -> String {
-    let strangers: Vec<&Judged> = judged.iter().filter(|one| !one.is_fitted).collect();
-    let fitted: Vec<&Judged> = judged.iter().filter(|one| one.is_fitted).collect();
+    let all: Vec<&Judged> = judged.iter().collect();
     format!(
         "# Predicted ground forces by kind of person and laboratory\n\n\
          Forces are predicted from motion alone and compared with force plates, as `ambulo validate` compares them. \
-         [GROUND_FIT.md](GROUND_FIT.md) describes the fit of the estimator. People and laboratories of the first table \
-         took no part in it: these are the errors of strangers. Means: feet, then trials, then persons, then \
+         Everybody is predicted with parameters that were fitted without the own laboratory \
+         ([GROUND_FIT.md](GROUND_FIT.md) describes the fit): these are the errors of strangers. Means: feet, then \
+         trials, then persons, then \
          laboratories, each laboratory with the same weight. Children: children and adolescents; in a laboratory that \
          recorded children and adults, those below 45 kg. The publishers of the Rehazenter set low-passed its markers \
          at about 6 Hz. Plates of the runners of UFABC are wrong sideways.\n\n\
-         ## People who took no part in the fit\n\n{}\n\
+         ## Strangers: the own laboratory left out of the fit\n\n{}\n\
          ## The same, by laboratory\n\n{}\n\
-         ## People of the fit\n\n{}\n\
-         ## Bandwidth of the recorded markers\n\n\
-         The frequency below which 99 % of the acceleration of the fastest markers lies, median over the \
-         fastest quarter \
-         of them. Raw markers have a noise floor up to half of the frame rate; where it is missing, the markers were \
-         low-passed before publication.\n\n{}\n\
+         ## Bandwidth of the recorded motion\n\n\
+         The frequency below which 99 % of the acceleration of the feet lies (`motion_bandwidth` of the summary), 20 \
+         Hz and more counted as 20. Raw markers have a noise floor up to half of the frame rate; where it is missing, \
+         the markers were low-passed before publication.\n\n{}\n\
          ## Running: the prediction and Newton's law alone\n\n{}\n\
-         ## Recognised activities of people who took no part in the fit\n\n{}\n\
+         ## Recognised activities\n\n{}\n\
          ## Trials that plates cannot judge\n\n{}",
-        by_kind(&strangers),
-        by_laboratory(&strangers),
-        by_kind(&fitted),
+        by_kind(&all),
+        by_laboratory(&all),
         bandwidths(judged),
-        running(&strangers),
-        activities(&strangers),
+        running(&all),
+        activities(&all),
         unjudged(not_judged)
     )
 }

@@ -672,6 +672,10 @@ codes! {
     PredictionPull "prediction.pull" Warning
         "The motion accelerates downwards faster than gravity, which no floor can cause."
         "Check unit and rate of the motion.";
+    PredictionMotionSmoothed "prediction.motion_smoothed" Warning
+        "The motion was smoothed so much before it was recorded that it does not show the foot strikes; predicted \
+         forces are less accurate."
+        "Use the markers as they were recorded, or filtered at 10 Hz or more.";
     PredictionFeetSlide "prediction.feet_slide" Warning
         "Loaded feet slide on the floor, so predicted forces are less accurate than their standard deviations state."
         "Refit the motion, or correct the angles of the legs.";

@@ -20,7 +20,7 @@ use super::recording::{Analysis, Mass};
 use super::walking_direction::WalkingDirection;
 use crate::ground::footfalls::Footfalls;
 use crate::ground::phases::contacts_from_events;
-use crate::ground::predict::{ErrorSample, FootDeviation, Prediction, outwards_sign, strike_descents};
+use crate::ground::predict::{ErrorSample, FootDeviation, Prediction, Traits, outwards_sign, stance_traits};
 use crate::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
 use crate::model::{Model, Movement, Side};
 use crate::motion::{ForceRecording, TimeGrid, Window};
@@ -218,8 +218,8 @@ pub struct ComparedStance {
     pub side: Side,
     /// From foot strike to foot off [s].
     pub span_s: [f64; 2],
-    /// Descent of the mass centre at its strike (`strike_descents`).
-    pub strike_descent: f64,
+    /// Traits on which the mean errors of predictions depend (`stance_traits`).
+    pub traits: Traits,
     /// The frames in which the plate was loaded.
     pub samples: Vec<ComparedSample>,
 }
@@ -268,20 +268,20 @@ impl ComparedStance {
     #[must_use]
     pub fn errors(&self, weight_n: f64, stature_m: f64) -> [Vec<ErrorSample>; 5] {
         let mut all: [Vec<ErrorSample>; 5] = Default::default();
-        let (outwards, descent) = (outwards_sign(self.side), self.strike_descent);
+        let (outwards, traits) = (outwards_sign(self.side), self.traits);
         for s in &self.samples {
             let phase = s.detected_phase;
             let [up, forward, sideways] = [0, 1, 2].map(|axis| (s.measured[axis] - s.predicted[axis]) / weight_n);
             let weight = 1.0 / self.samples.len() as f64;
             for (axis, error) in [forward, up, outwards * sideways].into_iter().enumerate() {
-                all[axis].push(ErrorSample { phase, error, weight, descent });
+                all[axis].push(ErrorSample { phase, error, weight, traits });
             }
             let load = s.measured[0] / weight_n;
             if load > CENTER_LOAD_BW {
                 let [along, across] = s.center_off.map(|off| -off / stature_m);
                 let weight = weight * load;
-                all[3].push(ErrorSample { phase, error: along, weight, descent });
-                all[4].push(ErrorSample { phase, error: outwards * across, weight, descent });
+                all[3].push(ErrorSample { phase, error: along, weight, traits });
+                all[4].push(ErrorSample { phase, error: outwards * across, weight, traits });
             }
         }
         all
@@ -355,7 +355,7 @@ pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
     let direction = WalkingDirection::of(model, &predicted.trajectory, &prediction.footfalls);
     let (found, truth) = (feet(model, &predicted.ground), feet(model, &measured.ground));
     let of = |list: &[(Side, Cow<'_, BodyForces>)], side: Side| list.iter().position(|(s, _)| *s == side);
-    let descents = strike_descents(model, &predicted.trajectory, &prediction.footfalls);
+    let all_traits = stance_traits(model, &predicted.trajectory, &prediction.footfalls);
     let mut all = Vec::new();
     for side in Side::BOTH {
         let (Some(found_at), Some(truth_at)) = (of(&found, side), of(&truth, side)) else { continue };
@@ -370,8 +370,8 @@ pub fn compared_stances(compared: &ComparedAnalyses<'_>, coverage: &PlateCoverag
             let detected = detected(&prediction.footfalls, side, span_s);
             let detected_s = detected.map_or(span_s, |(_, span)| span);
             let samples = foot.samples([span_s, detected_s], direction.during(span_s));
-            let strike_descent = detected.map_or(0.0, |(fall, _)| descents[fall]);
-            all.push(ComparedStance { side, span_s, strike_descent, samples });
+            let traits = detected.map_or(Traits::default(), |(fall, _)| all_traits[fall]);
+            all.push(ComparedStance { side, span_s, traits, samples });
         }
     }
     all

@@ -16,6 +16,7 @@ mod known_bodies;
 mod laboratory_recording;
 mod marker_trial;
 mod marker_use;
+pub(crate) mod motion_bandwidth;
 mod peaks;
 mod plausibility;
 mod predicted;

@@ -3,6 +3,7 @@
 use super::cycles::cycles;
 use super::events::{Event, EventKind};
 use super::feasibility::over_ground;
+use super::motion_bandwidth::motion_bandwidth;
 use super::plausibility;
 use super::progress::{Progress, Stage};
 use super::recording::{
@@ -76,7 +77,11 @@ pub(crate) fn predicted_in_frames(
     if let Some(whole) = prediction_of_whole_motion(model, motion, settings, trajectory.grid(), input, findings) {
         return whole;
     }
-    let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
+    let passed = PredictSettings {
+        motion_filter: settings.smoother.low_pass(),
+        motion_bandwidth_hz: motion_bandwidth(model, motion, input.soles, settings),
+        ..input.settings.clone()
+    };
     Ok(predict(model, trajectory, input.soles, &passed, findings)?)
 }
 
@@ -105,7 +110,11 @@ fn prediction_of_whole_motion(
     if !(same_steps && is_inside) {
         return None;
     }
-    let passed = PredictSettings { motion_filter: settings.smoother.low_pass(), ..input.settings.clone() };
+    let passed = PredictSettings {
+        motion_filter: settings.smoother.low_pass(),
+        motion_bandwidth_hz: motion_bandwidth(model, motion, input.soles, settings),
+        ..input.settings.clone()
+    };
     let found = predict(model, &whole, input.soles, &passed, findings);
     Some(found.map(|found| found.within(first..first + grid.frames, grid)).map_err(AnalysisError::from))
 }

@@ -271,6 +271,7 @@ impl Computed {
             verdict: &verdict,
             delay: self.timing.delay.filter(|_| *force_origin == ForceOrigin::Measured),
             tempo: self.timing.tempo.or_else(by_gait),
+            shown: prediction.and_then(|found| found.checks.get("motion_bandwidth")),
         };
         Judgement { quality: evidence.quality(), activity, strides, stances, verdict }
     }

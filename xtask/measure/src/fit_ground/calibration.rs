@@ -1,10 +1,11 @@
 //! Factors and floors of the standard deviations, so that a 90 % band contains 90 % of the measured samples.
 //!
-//! Samples of a stance are not independent, so every stance and every subject has the same weight: shares are means
-//! over stances, then over subjects. For each floor the factor follows from the share; of these pairs the one with the
-//! narrowest band is used.
+//! Samples of a stance are not independent, and people of a laboratory resemble each other: shares are means over
+//! stances, then over subjects, then over laboratories. For each floor the factor follows from the share; of these
+//! pairs the one with the narrowest band is used. This is split conformal calibration with laboratories left out: every
+//! error is one of a prediction whose parameters do not know the laboratory.
 
-use super::cases::{Case, OF_CENTER_MISFIT, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, mean};
+use super::cases::{Case, OF_CENTER_MISFIT, OF_MISFIT, OF_SIDEWAYS, Sample, StanceSamples, WIDENING, mean};
 use super::numbers::three_digits;
 use ambulo::ground::predict::{DeviationCalibration, DeviationScaling, FittedParameters, scaling_at};
 use std::ops::Range;
@@ -34,21 +35,47 @@ pub(super) type Bands = [[Option<Band>; 6]; 6];
 /// Stances of subjects.
 pub(super) struct Judged {
     /// One entry a subject.
-    subjects: Vec<(&'static str, Vec<StanceSamples>)>,
+    subjects: Vec<JudgedSubject>,
 }
+
+/// Stances of a subject.
+struct JudgedSubject {
+    subject: &'static str,
+    laboratory: &'static str,
+    stances: Vec<StanceSamples>,
+}
+
+/// Stances of a component with the weight of their subject.
+type Weighted = (f64, Vec<Vec<Sample>>);
 
 /// Factors and floors of a component in each fifth of a stance.
 pub(super) type Fifths = [DeviationScaling; 5];
 
 impl Judged {
-    /// Straight walks of these subjects, each predicted with its own parameters and the deviations of the equations
-    /// unchanged.
-    pub(super) fn new(cases: &[Case], subjects: &[&'static str], parameters: &[FittedParameters]) -> Judged {
-        let own = |(subject, parameters): (&&'static str, &FittedParameters)| {
-            let straight = cases.iter().filter(|case| case.subject == *subject && case.is_straight());
-            (*subject, straight.flat_map(|case| case.samples(parameters)).collect())
-        };
-        Judged { subjects: subjects.iter().zip(parameters).map(own).collect() }
+    /// The straight walks of all subjects, each predicted with the parameters that `of` gives for its laboratory and
+    /// the deviations of the equations unchanged.
+    pub(super) fn new<'a>(
+        cases: impl Iterator<Item = &'a Case>,
+        of: &dyn Fn(&str) -> Option<&'a FittedParameters>,
+    ) -> Judged {
+        let mut subjects: Vec<JudgedSubject> = Vec::new();
+        for case in cases.filter(|case| case.is_straight()) {
+            let Some(parameters) = of(case.laboratory) else { continue };
+            let samples = case.samples(parameters);
+            match subjects.iter_mut().find(|known| known.subject == case.subject) {
+                Some(known) => known.stances.extend(samples),
+                None => {
+                    let (subject, laboratory) = (case.subject, case.laboratory);
+                    subjects.push(JudgedSubject { subject, laboratory, stances: samples });
+                }
+            }
+        }
+        Judged { subjects }
+    }
+
+    /// Subjects and their laboratories.
+    pub(super) fn people(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.subjects.iter().map(|one| (one.subject, one.laboratory))
     }
 
     /// Stances of a component, subject by subject, within some fifths; subjects that are not judged on it are left out.
@@ -56,19 +83,22 @@ impl Judged {
         &self,
         component: usize,
         fifths: Range<usize>,
-        only: impl Fn(&str) -> bool,
-    ) -> Vec<Vec<Vec<Sample>>> {
+        only: impl Fn(&JudgedSubject) -> bool,
+    ) -> Vec<Weighted> {
         let within = |s: &&Sample| fifths.contains(&((5.0 * s.phase) as usize).min(4));
-        let chosen = self.subjects.iter().filter(|(subject, _)| only(subject));
-        let lists = chosen.map(|(_, stances)| {
-            let own = stances.iter().map(|stance| stance[component].iter().filter(within).copied().collect());
-            own.filter(|samples: &Vec<Sample>| !samples.is_empty()).collect::<Vec<_>>()
+        let lists = self.subjects.iter().filter(|one| only(one)).map(|one| {
+            let own = one.stances.iter().map(|stance| stance[component].iter().filter(within).copied().collect());
+            (one.laboratory, own.filter(|samples: &Vec<Sample>| !samples.is_empty()).collect::<Vec<_>>())
         });
-        lists.filter(|stances| !stances.is_empty()).collect()
+        let lists: Vec<(&str, Vec<Vec<Sample>>)> = lists.filter(|(_, stances)| !stances.is_empty()).collect();
+        let laboratories: Vec<&str> = lists.iter().map(|(laboratory, _)| *laboratory).collect();
+        let weight = |own: &str| 1.0 / laboratories.iter().filter(|other| **other == own).count() as f64;
+        lists.into_iter().map(|(laboratory, stances)| (weight(laboratory), stances)).collect()
     }
 
-    /// Factors and floors from the subjects for which `only` states so.
-    pub(super) fn calibration(&self, only: impl Fn(&str) -> bool) -> DeviationCalibration {
+    /// Factors and floors without a laboratory, if one is named.
+    pub(super) fn calibration(&self, left_out: Option<&str>) -> DeviationCalibration {
+        let only = |one: &JudgedSubject| Some(one.laboratory) != left_out;
         let whole = |component: usize| fitted(&self.of_component(component, 0..5, &only));
         let of_fifth =
             |component: usize| std::array::from_fn(|k| fitted(&self.of_component(component, k..k + 1, &only)));
@@ -79,6 +109,7 @@ impl Judged {
             of_misfit: OF_MISFIT,
             of_center_misfit: OF_CENTER_MISFIT,
             of_sideways: OF_SIDEWAYS,
+            ..WIDENING
         }
     }
 
@@ -96,7 +127,7 @@ impl Judged {
         subject: &str,
         calibration: &DeviationCalibration,
     ) -> Option<Band> {
-        let stances = self.of_component(component, fifths, |name| name == subject);
+        let stances = self.of_component(component, fifths, |one| one.subject == subject);
         (!stances.is_empty()).then(|| band(&stances, &spread(calibration, component)))
     }
 }
@@ -114,10 +145,10 @@ pub(super) fn spread(calibration: &DeviationCalibration, component: usize) -> Fi
 fn half_width(sample: &Sample, spread: &Fifths) -> f64 {
     let scaling = scaling_at(spread, sample.phase);
     let variance = scaling.variance(sample.deviation.powi(2), sample.unit) + sample.of_trial.powi(2);
-    if sample.deviation > 0.0 { BAND_90 * variance.sqrt() } else { 0.0 }
+    if sample.deviation > 0.0 { BAND_90 * sample.wider * variance.sqrt() } else { 0.0 }
 }
 
-fn band(subjects: &[Vec<Vec<Sample>>], spread: &Fifths) -> Band {
+fn band(subjects: &[Weighted], spread: &Fifths) -> Band {
     let holds =
         |stance: &Vec<Sample>| mean(stance.iter().map(|s| f64::from(u8::from(s.error.abs() <= half_width(s, spread)))));
     let width = |stances: &Vec<Vec<Sample>>| {
@@ -125,15 +156,20 @@ fn band(subjects: &[Vec<Vec<Sample>>], spread: &Fifths) -> Band {
         mean(all().map(|s| half_width(s, spread))) / mean(all().map(|s| s.error.powi(2))).sqrt()
     };
     Band {
-        holds: mean(subjects.iter().map(|stances| mean(stances.iter().map(holds)))),
-        half_width_over_rmse: mean(subjects.iter().map(width)),
+        holds: weighted(subjects, &|stances| mean(stances.iter().map(holds))),
+        half_width_over_rmse: weighted(subjects, &width),
     }
 }
 
+/// Mean over the subjects with their weights.
+fn weighted(subjects: &[Weighted], of: &dyn Fn(&Vec<Vec<Sample>>) -> f64) -> f64 {
+    let all: f64 = subjects.iter().map(|(weight, _)| weight).sum();
+    subjects.iter().map(|(weight, stances)| weight * of(stances)).sum::<f64>() / all
+}
+
 /// The sharpest pair of factor and floor that holds enough.
-fn fitted(subjects: &[Vec<Vec<Sample>>]) -> DeviationScaling {
-    let rmse =
-        mean(subjects.iter().map(|stances| mean(stances.iter().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt()));
+fn fitted(subjects: &[Weighted]) -> DeviationScaling {
+    let rmse = weighted(subjects, &|stances| mean(stances.iter().flatten().map(|s| (s.error / s.unit).powi(2))).sqrt());
     let pairs = FLOORS.map(|share| {
         let spread = DeviationScaling { factor: factor(subjects, share * rmse), floor: share * rmse };
         DeviationScaling { factor: three_digits(spread.factor), floor: three_digits(spread.floor) }
@@ -150,7 +186,7 @@ fn fitted(subjects: &[Vec<Vec<Sample>>]) -> DeviationScaling {
 
 /// The factor that gives the required share with a floor, by bisection on a logarithmic scale: the share grows with the
 /// factor.
-fn factor(subjects: &[Vec<Vec<Sample>>], floor: f64) -> f64 {
+fn factor(subjects: &[Weighted], floor: f64) -> f64 {
     let [mut low, mut high] = FACTORS;
     for _ in 0..30 {
         let factor = (low * high).sqrt();
@@ -176,6 +212,7 @@ mod tests {
                 deviation,
                 unit: 1.0,
                 of_trial: 0.0,
+                wider: 1.0,
             }
         };
         (0..20).map(|_| (0..100).map(&mut sample).collect()).collect()
@@ -185,8 +222,8 @@ mod tests {
     fn a_band_of_normal_errors_holds_nine_in_ten_and_so_it_does_on_others() {
         for (factor, floor) in [(1.0, 0.0), (2.5, 0.0), (0.5, 3.0)] {
             let (own, others) = (stances(1, factor, floor), stances(2, factor, floor));
-            let found = fitted(&[own]);
-            let band = band(&[others], &[found; 5]);
+            let found = fitted(&[(1.0, own)]);
+            let band = band(&[(1.0, others)], &[found; 5]);
             assert!((band.holds - 0.9).abs() < 0.03, "{factor}, {floor}: {found:?} gives {band:?}");
             assert!(band.half_width_over_rmse < 1.7, "{band:?}");
         }
@@ -195,13 +232,26 @@ mod tests {
     #[test]
     fn a_factor_is_found_again() {
         let own = stances(3, 2.0, 0.0);
-        let found = factor(&[own], 0.0);
+        let found = factor(&[(1.0, own)], 0.0);
         assert!((found - 2.0).abs() < 0.1, "{found}");
     }
 
     #[test]
+    fn a_laboratory_of_many_counts_like_a_laboratory_of_one() {
+        let of = |laboratory, factor: f64, seed| {
+            let stances =
+                stances(seed, factor, 0.0).into_iter().map(|samples| std::array::from_fn(|_| samples.clone()));
+            JudgedSubject { subject: laboratory, laboratory, stances: stances.collect() }
+        };
+        let alone = Judged { subjects: vec![of("a", 1.0, 4), of("b", 3.0, 5)] };
+        let many = Judged { subjects: vec![of("a", 1.0, 4), of("a", 1.0, 4), of("a", 1.0, 4), of("b", 3.0, 5)] };
+        let [alone, many] = [alone, many].map(|judged| judged.calibration(None).force[0][2]);
+        assert_eq!(alone, many);
+    }
+
+    #[test]
     fn where_nothing_was_predicted_nothing_is_held() {
-        let sample = Sample { phase: 0.5, error: 0.1, deviation: 0.0, unit: 1.0, of_trial: 1.0 };
+        let sample = Sample { phase: 0.5, error: 0.1, deviation: 0.0, unit: 1.0, of_trial: 1.0, wider: 1.0 };
         assert!(half_width(&sample, &[DeviationScaling { factor: 5.0, floor: 9.0 }; 5]).abs() < 1e-12);
     }
 }

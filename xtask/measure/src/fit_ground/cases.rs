@@ -1,14 +1,14 @@
 //! The recordings of the fit, prepared for repeated predictions.
 
-use crate::validate::recording::{self, Group, Recording};
+use crate::validate::recording::{self, Group, Population, Recording};
 use ambulo::analysis::{
     Analysis, ComparedAnalyses, ComparedStance, FootAgreement, GroundAgreement, PlateCoverage, compared_stances,
     ground_agreement,
 };
 use ambulo::findings::Findings;
 use ambulo::ground::predict::{
-    DeviationCalibration, DeviationScaling, Ends, ErrorSample, ErrorsByDescent, FittedParameters, PredictSettings,
-    Prediction, Prescribed, StanceCurve, StanceErrors, predict,
+    DeviationCalibration, DeviationScaling, Ends, ErrorSample, ErrorsByTraits, FittedParameters, HASTE,
+    PredictSettings, Prediction, Prescribed, StanceCurve, StanceErrors, is_smoothed, predict,
 };
 use ambulo::motion::filter::LowPass;
 use ambulo::numerics;
@@ -25,6 +25,9 @@ pub(super) struct Case {
     pub(super) subject: &'static str,
     pub(super) laboratory: &'static str,
     pub(super) group: Group,
+    pub(super) population: Population,
+    /// Whether the numbers are fitted to this person.
+    pub(super) is_first: bool,
     /// By the prediction with the shipped numbers.
     outcome: Outcome,
     prescribed: Prescribed,
@@ -55,6 +58,7 @@ const OF_TRIAL_ALONE: DeviationCalibration = {
         of_misfit: OF_MISFIT,
         of_center_misfit: OF_CENTER_MISFIT,
         of_sideways: OF_SIDEWAYS,
+        ..DeviationCalibration::UNSCALED
     }
 };
 /// Shares of a trial's misfit and of its sideways force in the deviation ([`DeviationCalibration`] states how they were
@@ -62,6 +66,12 @@ const OF_TRIAL_ALONE: DeviationCalibration = {
 pub(super) const OF_MISFIT: f64 = 0.5;
 pub(super) const OF_CENTER_MISFIT: f64 = 0.4;
 pub(super) const OF_SIDEWAYS: f64 = 0.1;
+/// How much wider deviations are for each unit of haste: of 0, 0.5 and 1 for the forces forward and up that with which
+/// the bands of fast walks hold most, and for the sideways force between the last two. And for a smoothed motion, of
+/// which one laboratory has recordings: the excess of its vertical errors at own speed over those of the others, less
+/// what the misfit of the trial shows already.
+pub(super) const WIDENING: DeviationCalibration =
+    DeviationCalibration { of_haste: [1.0, 1.0, 0.7], of_smoothed: 0.3, ..DeviationCalibration::UNSCALED };
 
 /// One component in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,49 +86,73 @@ pub(super) struct Sample {
     pub(super) unit: f64,
     /// Standard deviation that the trial itself shows, which is added in squares.
     pub(super) of_trial: f64,
+    /// Factor by which the deviation is wider than usual.
+    pub(super) wider: f64,
 }
 
 /// Samples of a stance, component by component.
 pub(super) type StanceSamples = [Vec<Sample>; 6];
 
-/// Recordings of walking, prepared.
+/// Recordings, prepared.
 pub(super) struct Cases {
-    /// As they are.
+    /// Walks of the people to whom the numbers are fitted.
     pub(super) whole: Vec<Case>,
+    /// Those of all other laboratories, runs included: mean errors and deviations are fitted to their walks, too.
+    pub(super) further: Vec<Case>,
     /// The straight walks with markers on the trunk once more, without their markers above the pelvis.
     pub(super) without_trunk: Vec<Case>,
 }
 
-/// All walking recordings next to the workspace, without runs. `said` is called for each recording that is loaded.
+impl Cases {
+    /// Everybody.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Case> {
+        self.whole.iter().chain(&self.further)
+    }
+
+    /// All laboratories, in the order of the recordings.
+    pub(super) fn laboratories(&self) -> Vec<&'static str> {
+        named(self.all().map(|case| case.laboratory))
+    }
+}
+
+/// Names, each once, in their order.
+pub(super) fn named(all: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    for name in all {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// All recordings next to the workspace, without jumps. `said` is called for each recording that is loaded.
 pub(super) fn load(data: &Path, said: &mut dyn FnMut(&str)) -> Result<Cases, String> {
-    let mut cases = Cases { whole: Vec::new(), without_trunk: Vec::new() };
-    let walks = |r: &Recording| r.group != Group::Running;
-    for recording in recording::all().into_iter().filter(walks) {
+    let mut cases = Cases { whole: Vec::new(), further: Vec::new(), without_trunk: Vec::new() };
+    let first = recording::all().into_iter().map(|recording| (recording, recording.group != Group::Running));
+    let further = recording::further().into_iter().map(|recording| (recording, false));
+    for (recording, is_first) in first.chain(further).filter(|(recording, _)| recording.group != Group::Jumping) {
         said(recording.label);
         let failed = |reason| format!("{}: {reason}", recording.label);
-        let whole = recording.read(data).and_then(|source| Case::new(&recording, &source)).map_err(failed)?;
-        if recording.group == Group::Walking && recording.has_markers() {
+        let whole = recording.read(data).and_then(|source| Case::new(&recording, is_first, &source)).map_err(failed)?;
+        if is_first && recording.group == Group::Walking && recording.has_markers() {
             let source = recording.read_without_trunk(data, &whole.outcome);
-            cases.without_trunk.push(source.and_then(|source| Case::new(&recording, &source)).map_err(failed)?);
+            cases
+                .without_trunk
+                .push(source.and_then(|source| Case::new(&recording, is_first, &source)).map_err(failed)?);
         }
-        cases.whole.push(whole);
+        if is_first { &mut cases.whole } else { &mut cases.further }.push(whole);
     }
     Ok(cases)
 }
 
 /// Subjects, each once, in the order of the recordings.
 pub(super) fn subjects(cases: &[Case]) -> Vec<&'static str> {
-    let mut names: Vec<&'static str> = Vec::new();
-    for case in cases {
-        if !names.contains(&case.subject) {
-            names.push(case.subject);
-        }
-    }
-    names
+    named(cases.iter().map(|case| case.subject))
 }
 
 impl Case {
-    fn new(recording: &Recording, source: &Source) -> Result<Case, String> {
+    fn new(recording: &Recording, is_first: bool, source: &Source) -> Result<Case, String> {
         let outcome = recording.predict(source, Prescribed::default())?;
         let PredictedGround { prediction, measured, coverage, .. } =
             outcome.prediction.as_ref().ok_or("nothing was predicted")?;
@@ -126,6 +160,8 @@ impl Case {
             subject: recording.subject,
             laboratory: recording.laboratory,
             group: recording.group,
+            population: recording.population,
+            is_first,
             prescribed: Prescribed { footfalls: Some(prediction.footfalls.clone()), ..Prescribed::default() },
             measured: measured.clone().ok_or("no plates")?,
             coverage: coverage.clone().ok_or("no plates")?,
@@ -139,9 +175,15 @@ impl Case {
             parameters: *parameters,
             person: None,
             motion_filter: Some(LowPass::MOTION),
+            motion_bandwidth_hz: self.bandwidth_hz(),
         };
         let Outcome { body, person, .. } = &self.outcome;
         predict(body, &self.measured.trajectory, &person.soles, &settings, &mut Findings::default()).ok()
+    }
+
+    /// The bandwidth of its motion [Hz].
+    fn bandwidth_hz(&self) -> Option<f64> {
+        self.outcome.prediction.as_ref()?.prediction.motion_bandwidth_hz
     }
 
     /// Agreement of a prediction with the measured forces; `None` without a prediction.
@@ -178,9 +220,9 @@ impl Case {
         mean(agreement.feet.iter().map(of_foot))
     }
 
-    /// Whether the recording is straight walking at a usual speed; others are part of the fit but evaluated separately.
+    /// Whether the recording is straight walking; others are part of the fit but evaluated separately.
     pub(super) fn is_straight(&self) -> bool {
-        matches!(self.group, Group::Walking | Group::NoTrunk)
+        matches!(self.group, Group::Walking | Group::NoTrunk | Group::FastWalking)
     }
 
     /// Body weight [N] and stature [m].
@@ -201,6 +243,8 @@ impl Case {
     fn of_stance(&self, stance: &ComparedStance, of_trial: &ComparedStance) -> StanceSamples {
         let [weight, _] = self.size();
         let mut out = StanceSamples::default();
+        let (haste, is_smoothed) = (stance.traits[HASTE], is_smoothed(self.bandwidth_hz()));
+        let wider = |c: usize| if c < 3 { WIDENING.widening(c, haste, is_smoothed) } else { 1.0 };
         for (s, of_trial) in stance.samples.iter().zip(&of_trial.samples) {
             let [up, forward, sideways] =
                 [0, 1, 2].map(|k| (s.predicted[k] - s.measured[k], s.deviation[k], weight, of_trial.deviation[k]));
@@ -212,7 +256,8 @@ impl Case {
                 let counts = c < 3 || s.measured[0] > CENTER_LOAD_BW * weight;
                 let judged = self.group != Group::NoTrunk || !NEEDS_TRUNK.contains(&c);
                 if counts && judged && error.is_finite() {
-                    out[c].push(Sample { phase: s.detected_phase, error, deviation, unit, of_trial });
+                    let wider = wider(c);
+                    out[c].push(Sample { phase: s.detected_phase, error, deviation, unit, of_trial, wider });
                 }
             }
         }
@@ -220,42 +265,53 @@ impl Case {
     }
 }
 
-/// Mean errors of the estimate with these parameters on some subjects: of the force forward and up with their change
-/// with the descent at the strike, from all walks with markers on the trunk; of the sideways force and of the centre of
-/// pressure along the way from the straight ones. The mean error of the centre of pressure across is not that of a
-/// subject or a laboratory left out.
-pub(super) fn mean_errors(cases: &[Case], subjects: &[&str], parameters: &FittedParameters) -> ErrorsByDescent {
-    let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
-    let all = error_samples(cases, subjects, parameters, |group| group != Group::NoTrunk);
-    let [forward, up] = [0, 1].map(|axis| StanceCurve::through_by_descent(&all[axis]).map(rounded));
-    let straight = error_samples(cases, subjects, parameters, |group| group == Group::Walking);
-    let outwards = rounded(StanceCurve::through(&straight[2], Ends::Zero));
-    let along = rounded(StanceCurve::through(&straight[3], Ends::Free));
-    let center = [along, StanceCurve::NONE];
-    ErrorsByDescent {
-        usual: StanceErrors { force: [forward[0], up[0], outwards], center },
-        by_descent: [forward[1], up[1]],
-    }
+/// Errors of each stance of each case, in the order of [`StanceErrors`].
+pub(super) type CaseErrors = Vec<Vec<[Vec<ErrorSample>; 5]>>;
+
+/// Errors of the estimate with these parameters.
+pub(super) fn errors(cases: &[&Case], parameters: &FittedParameters) -> CaseErrors {
+    let of_case = |case: &&Case| {
+        let [weight_n, stature_m] = case.size();
+        case.stances(parameters).into_iter().map(|stance| stance.errors(weight_n, stature_m)).collect()
+    };
+    cases.iter().map(of_case).collect()
 }
 
-/// Errors of all stances in some kinds of trial, in the order of [`StanceErrors`]; every subject has the same weight.
-fn error_samples(
-    cases: &[Case],
-    subjects: &[&str],
-    parameters: &FittedParameters,
-    counts: impl Fn(Group) -> bool,
+/// Mean errors of walking over the cases for which `stays` states so: of the forces with their change with the traits,
+/// from all walks with markers on the trunk. The centre of pressure along the way is that of the straight walks of the
+/// people to whom the numbers are fitted, each with the same weight: with all laboratories its error grew by an eighth
+/// in children. That across is not repeated by a person or a laboratory left out.
+pub(super) fn mean_errors(cases: &[&Case], errors: &CaseErrors, stays: &dyn Fn(&Case) -> bool) -> ErrorsByTraits {
+    let rounded = |curve: StanceCurve| StanceCurve(curve.0.map(|value| (1e5 * value).round() / 1e5));
+    let walks = |case: &Case| stays(case) && !matches!(case.group, Group::NoTrunk | Group::Running);
+    let all = weighted_samples(cases, errors, &walks, &|case| case.laboratory);
+    let forces = [0, 1, 2].map(|axis| StanceCurve::through_by_traits(&all[axis], axis).map(rounded));
+    let first = |case: &Case| stays(case) && case.is_first && case.group == Group::Walking;
+    let straight = weighted_samples(cases, errors, &first, &|case| case.subject);
+    let center = [rounded(StanceCurve::through(&straight[3], Ends::Free)), StanceCurve::NONE];
+    let force = forces.map(|curves| curves[0]);
+    let changes = forces.map(|[_, changes @ ..]| changes);
+    ErrorsByTraits { usual: StanceErrors { force, center }, changes }
+}
+
+/// Samples of the chosen cases, in the order of [`StanceErrors`]: every group has the same weight, in it every person,
+/// and in them every stance.
+fn weighted_samples(
+    cases: &[&Case],
+    errors: &CaseErrors,
+    counts: &dyn Fn(&Case) -> bool,
+    group: &dyn Fn(&Case) -> &'static str,
 ) -> [Vec<ErrorSample>; 5] {
+    let chosen: Vec<_> = cases.iter().zip(errors).filter(|(case, own)| counts(case) && !own.is_empty()).collect();
+    let people =
+        |name: &str| named(chosen.iter().filter(|(case, _)| group(case) == name).map(|(case, _)| case.subject)).len();
+    let stances = |subject: &str| -> usize {
+        chosen.iter().filter(|(case, _)| case.subject == subject).map(|(_, own)| own.len()).sum()
+    };
     let mut all: [Vec<ErrorSample>; 5] = Default::default();
-    for subject in subjects {
-        let own = cases.iter().filter(|case| case.subject == *subject && counts(case.group));
-        let stances: Vec<[Vec<ErrorSample>; 5]> = own
-            .flat_map(|case| {
-                let [weight_n, stature_m] = case.size();
-                case.stances(parameters).into_iter().map(move |stance| stance.errors(weight_n, stature_m))
-            })
-            .collect();
-        let share = 1.0 / stances.len() as f64;
-        for stance in &stances {
+    for (case, own) in &chosen {
+        let share = 1.0 / (people(group(case)) * stances(case.subject)) as f64;
+        for stance in *own {
             for (all, own) in all.iter_mut().zip(stance) {
                 all.extend(own.iter().map(|sample| ErrorSample { weight: share * sample.weight, ..*sample }));
             }

@@ -1,14 +1,17 @@
 //! Fits the parameters of the ground-force estimator:
-//! `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--write]`.
+//! `cargo xtask fit-ground [--evaluations N] [--seed N] [--pull X] [--search] [--write] [--keep]`.
 //!
 //! Writes `crates/ambulo/data/ground/stance_curves.toml` from the normative tables and reports whether the file has
-//! changed. Fits `ambulo::ground::predict::FittedParameters` to the recordings with plates, on all subjects and
-//! leave-one-out, calibrates the standard deviations, and prints the results; with `--write` they go to
-//! docs/measured/GROUND_FIT.md. The parameters are printed as the `Default` to paste: this command changes no source.
+//! changed. Fits the numbers of `ambulo::ground::predict::FittedParameters` to recordings with plates of the people of
+//! VALIDATION.md, and its mean errors and standard deviations to those of all laboratories, each with the same weight;
+//! on everybody and with people and laboratories left out. Prints the results; with `--write` they go to
+//! docs/measured/GROUND_FIT.md, with `--keep` the errors of this version replace those that the gate compares with. The
+//! parameters are printed as the `Default` to paste: this command changes no source.
 
 mod calibration;
 mod cases;
 mod curves;
+mod gate;
 mod numbers;
 mod page;
 mod search;
@@ -16,9 +19,11 @@ mod search;
 use crate::workspace;
 use ambulo::ground::predict::FittedParameters;
 use calibration::{Bands, Judged};
-use cases::{Case, Cases};
+use cases::{Case, CaseErrors, Cases};
 use numbers::{NUMBERS, parameters, rounded};
 use std::fs;
+use std::path::Path;
+use std::thread;
 use std::time::Instant;
 
 /// Evaluations per fit: five minutes for all fits on one core. With 400 the cost of the fit falls by 0.5 %, that of
@@ -39,6 +44,15 @@ struct Order {
     seed: u64,
     pull: f64,
     write: bool,
+    keep: bool,
+    /// Whether the numbers are searched again; otherwise those of the crate stay, and without a laboratory those that
+    /// were found last.
+    search: bool,
+}
+
+impl Order {
+    const DEFAULT: Order =
+        Order { evaluations: EVALUATIONS, seed: SEED, pull: PULL, write: false, keep: false, search: false };
 }
 
 /// How the parameters were fitted with which a subject is predicted.
@@ -46,19 +60,16 @@ struct Order {
 enum Fit {
     /// On all subjects.
     Own,
-    /// On all others.
-    PersonLeftOut,
     /// On those of other laboratories.
     LaboratoryLeftOut,
 }
 
 impl Fit {
-    const ALL: [Fit; 3] = [Fit::Own, Fit::PersonLeftOut, Fit::LaboratoryLeftOut];
+    const ALL: [Fit; 2] = [Fit::Own, Fit::LaboratoryLeftOut];
 
     fn word(self) -> &'static str {
         match self {
             Fit::Own => "own",
-            Fit::PersonLeftOut => "person left out",
             Fit::LaboratoryLeftOut => "laboratory left out",
         }
     }
@@ -71,11 +82,9 @@ struct Fold {
     /// Whether the figures count in the means: straight walks with markers on the trunk.
     is_judged: bool,
     /// Fitted and calibrated.
-    parameters: [FittedParameters; 3],
-    costs: [f64; 3],
-    figures: [[f64; 11]; 3],
-    /// Predicted with the laboratory left out.
-    bands: Bands,
+    parameters: [FittedParameters; 2],
+    costs: [f64; 2],
+    figures: [[f64; 11]; 2],
     /// The same without the markers above the pelvis; `None` where the subject has no walk with all markers.
     without_trunk: Option<WithoutTrunk>,
 }
@@ -88,14 +97,23 @@ struct WithoutTrunk {
 
 /// The results of the fit.
 struct Outcome {
-    /// Fitted and calibrated on all subjects.
+    /// Fitted and calibrated on everybody.
     parameters: FittedParameters,
     cost: f64,
     cost_of_middle: f64,
     cost_of_shipped: f64,
     /// Change of the cost, as a share, when a number is halved and doubled.
     sensitivity: Vec<[f64; 2]>,
+    /// The people to whom the numbers are fitted.
     folds: Vec<Fold>,
+    /// Each laboratory with the parameters that do not know it.
+    laboratories: Vec<(&'static str, FittedParameters)>,
+    /// Bands of everybody who walks straight, the own laboratory left out.
+    bands: Vec<(&'static str, &'static str, Bands)>,
+    /// Errors of groups, the own laboratory left out.
+    groups: Vec<gate::GroupErrors>,
+    /// The numbers of the laboratories that have a part in them, without each of them.
+    numbers_left_out: Vec<(&'static str, FittedParameters)>,
 }
 
 impl Outcome {
@@ -131,8 +149,16 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         );
     }
     let cases = cases::load(&data, &mut |label| progress(&format!("loading {label}")))?;
-    let outcome = outcome(&cases, &order);
+    let outcome = outcome(&cases, &order)?;
     let page = page::text(&order, &outcome);
+    if order.search {
+        let path = workspace::root().join(NUMBERS_LEFT_OUT);
+        fs::write(&path, numbers::written(&outcome.numbers_left_out))
+            .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    }
+    if order.keep {
+        gate::keep(&outcome.groups)?;
+    }
     println!(
         "{page}\nTo paste into crates/ambulo/src/ground/predict/fitted_parameters.rs (`cargo fmt` after it):\n\n{:?}",
         outcome.parameters
@@ -151,7 +177,7 @@ fn progress(text: &str) {
 }
 
 fn order(words: &[String]) -> Result<Order, String> {
-    let mut order = Order { evaluations: EVALUATIONS, seed: SEED, pull: PULL, write: false };
+    let mut order = Order::DEFAULT;
     let mut words = words.iter();
     while let Some(word) = words.next() {
         let mut number = || {
@@ -161,12 +187,15 @@ fn order(words: &[String]) -> Result<Order, String> {
         };
         match word.as_str() {
             "--write" => order.write = true,
+            "--keep" => order.keep = true,
+            "--search" => order.search = true,
             "--evaluations" => order.evaluations = number()?.max(1.0) as usize,
             "--seed" => order.seed = number()? as u64,
             "--pull" => order.pull = number()?,
             _ => {
                 return Err(format!(
-                    "unknown option `{word}`, expected --evaluations N, --seed N, --pull X or --write"
+                    "unknown option `{word}`, expected --evaluations N, --seed N, --pull X, --write or \
+                     --keep"
                 ));
             }
         }
@@ -174,30 +203,112 @@ fn order(words: &[String]) -> Result<Order, String> {
     Ok(order)
 }
 
-fn outcome(all: &Cases, order: &Order) -> Outcome {
+/// Numbers that were fitted without some people, with the errors of everybody that they leave.
+struct Numbers {
+    parameters: FittedParameters,
+    errors: CaseErrors,
+}
+
+impl Numbers {
+    fn of(all: &Cases, parameters: FittedParameters) -> Numbers {
+        Numbers { errors: cases::errors(&all.all().collect::<Vec<_>>(), &parameters), parameters }
+    }
+
+    /// With the mean errors of the cases for which `stays` states so.
+    fn with_means(&self, all: &Cases, stays: &dyn Fn(&Case) -> bool) -> FittedParameters {
+        let errors = cases::mean_errors(&all.all().collect::<Vec<_>>(), &self.errors, stays);
+        FittedParameters { errors, ..self.parameters }
+    }
+}
+
+/// Numbers that were fitted without each laboratory that has a part in them, relative to the workspace root.
+const NUMBERS_LEFT_OUT: &str = "xtask/measure/src/fit_ground/numbers_left_out.csv";
+
+/// Parameters for each laboratory that were fitted and calibrated without it, in the order of the recordings.
+pub(crate) fn laboratories_left_out(data: &Path) -> Result<Vec<(&'static str, FittedParameters)>, String> {
+    let all = cases::load(data, &mut |label| progress(&format!("loading {label}")))?;
+    let (own, left_out) = known_numbers(&all)?;
+    let of = |laboratory: &str| of_laboratory(&left_out, laboratory).copied();
+    let fits = without_each_laboratory(&all, &Numbers::of(&all, own), &of);
+    let judged = Judged::new(all.all(), &|laboratory| of_laboratory(&fits, laboratory));
+    Ok(calibrated(&fits, &judged))
+}
+
+/// The numbers of the crate, and those that [`all_numbers`] has found last without each laboratory.
+fn known_numbers(all: &Cases) -> Result<(FittedParameters, Vec<(&'static str, FittedParameters)>), String> {
+    let path = workspace::root().join(NUMBERS_LEFT_OUT);
+    let hint = "hint: `cargo xtask fit-ground --search` writes it";
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}. {hint}", path.display()))?;
+    let known = numbers::read(&text);
+    let of = |laboratory: &'static str| {
+        let found = known.iter().find(|(name, _)| name == laboratory).map(|(_, found)| (laboratory, *found));
+        found.ok_or_else(|| format!("{}: no numbers without {laboratory}. {hint}", path.display()))
+    };
+    let laboratories = cases::named(all.whole.iter().map(|case| case.laboratory));
+    let left_out = laboratories.into_iter().map(of).collect::<Result<Vec<_>, String>>()?;
+    Ok((numbers::unfitted(), left_out))
+}
+
+/// Numbers fitted to everybody who has a part in them, and without each of their laboratories; the fits run side by
+/// side.
+fn all_numbers(all: &Cases, order: &Order) -> (FittedParameters, Vec<(&'static str, FittedParameters)>) {
+    let subjects = cases::subjects(&all.whole);
+    let without = |laboratory: &'static str| {
+        let is_other = |subject: &&str| cases::laboratory(&all.whole, subject) != laboratory;
+        let others: Vec<&'static str> = subjects.iter().copied().filter(is_other).collect();
+        (laboratory, numbers_fitted(&all.whole, &others, order, &format!("without {laboratory}")))
+    };
+    let laboratories = cases::named(all.whole.iter().map(|case| case.laboratory));
+    thread::scope(|scope| {
+        let without = &without;
+        let left_out: Vec<_> =
+            laboratories.into_iter().map(|laboratory| scope.spawn(move || without(laboratory))).collect();
+        let own = numbers_fitted(&all.whole, &subjects, order, "all");
+        (own, left_out.into_iter().filter_map(|fit| fit.join().ok()).collect())
+    })
+}
+
+/// Numbers and mean errors without each laboratory. `numbers` gives those of the laboratories that have a part in them.
+fn without_each_laboratory(
+    all: &Cases,
+    own: &Numbers,
+    numbers: &dyn Fn(&str) -> Option<FittedParameters>,
+) -> Vec<(&'static str, FittedParameters)> {
+    let without = |laboratory: &'static str| {
+        let stays = |case: &Case| case.laboratory != laboratory;
+        let parameters = match numbers(laboratory) {
+            Some(found) => Numbers::of(all, found).with_means(all, &stays),
+            None => own.with_means(all, &stays),
+        };
+        (laboratory, parameters)
+    };
+    all.laboratories().into_iter().map(without).collect()
+}
+
+fn of_laboratory<'a>(fits: &'a [(&'static str, FittedParameters)], laboratory: &str) -> Option<&'a FittedParameters> {
+    fits.iter().find(|(name, _)| *name == laboratory).map(|(_, parameters)| parameters)
+}
+
+/// With the standard deviations that the others need.
+fn calibrated(fits: &[(&'static str, FittedParameters)], judged: &Judged) -> Vec<(&'static str, FittedParameters)> {
+    let with = |(name, fit): &(&'static str, FittedParameters)| {
+        (*name, FittedParameters { calibration: judged.calibration(Some(name)), ..*fit })
+    };
+    fits.iter().map(with).collect()
+}
+
+fn outcome(all: &Cases, order: &Order) -> Result<Outcome, String> {
     let cases = &all.whole;
     let subjects = cases::subjects(cases);
-    let laboratories: Vec<&'static str> = subjects.iter().map(|subject| cases::laboratory(cases, subject)).collect();
-    let mut own = fitted(cases, &subjects, order, "all");
-    let left_out = |name: &str, stays: &dyn Fn(usize) -> bool| {
-        let others = (0..subjects.len()).filter(|&i| stays(i)).map(|i| subjects[i]).collect::<Vec<_>>();
-        fitted(cases, &others, order, &format!("without {name}"))
-    };
-    let persons: Vec<FittedParameters> =
-        (0..subjects.len()).map(|i| left_out(subjects[i], &|other| other != i)).collect();
-    let mut by_laboratory: Vec<FittedParameters> = Vec::new();
-    for (i, laboratory) in laboratories.iter().enumerate() {
-        let first = laboratories.iter().position(|other| other == laboratory).unwrap_or(i);
-        let is_alone = laboratories.iter().filter(|other| *other == laboratory).count() == 1;
-        by_laboratory.push(match (first < i, is_alone) {
-            (true, _) => by_laboratory[first],
-            (false, true) => persons[i],
-            (false, false) => left_out(laboratory, &|other| laboratories[other] != *laboratory),
-        });
-    }
-    // Every subject is predicted with the parameters fitted on other laboratories: these are the errors of strangers.
-    let judged = Judged::new(cases, &subjects, &by_laboratory);
-    own.calibration = judged.calibration(|_| true);
+    let (of_everybody, left_out) = if order.search { all_numbers(all, order) } else { known_numbers(all)? };
+    let numbers = Numbers::of(all, of_everybody);
+    let fits = without_each_laboratory(all, &numbers, &|laboratory| of_laboratory(&left_out, laboratory).copied());
+    // Everybody is predicted with the parameters fitted on other laboratories: these are the errors of strangers.
+    let judged = Judged::new(all.all(), &|laboratory| of_laboratory(&fits, laboratory));
+    let laboratories = calibrated(&fits, &judged);
+    let means = numbers.with_means(all, &|_| true);
+    let own = FittedParameters { calibration: judged.calibration(None), ..means };
+    progress(&format!("fitted: {own:?}"));
     let cost = |parameters: &FittedParameters| cases::cost(cases, &subjects, parameters);
     let least = cost(&own);
     let sensitivity = NUMBERS.iter().map(|number| {
@@ -207,39 +318,55 @@ fn outcome(all: &Cases, order: &Order) -> Outcome {
             cost(&changed) / least - 1.0
         })
     });
-    let folds = subjects.iter().enumerate().map(|(i, subject)| {
-        let is_other = |other: &str| cases::laboratory(cases, other) != laboratories[i];
-        let calibration = judged.calibration(is_other);
-        let parameters = [own, persons[i], by_laboratory[i]].map(|fit| FittedParameters { calibration, ..fit });
-        Fold {
-            subject,
-            importance: cases::importance(cases, subject),
-            is_judged: cases::is_judged(cases, subject),
-            parameters,
-            costs: parameters.map(|fit| cases::subject_cost(cases, subject, &fit)),
-            figures: parameters.map(|fit| cases::figures(cases, subject, &fit)),
-            bands: judged.bands(subject, &calibration),
-            without_trunk: without_trunk(&all.without_trunk, subject, &parameters[Fit::LaboratoryLeftOut as usize]),
-        }
+    let bands = judged.people().map(|(subject, laboratory)| {
+        let calibration = of_laboratory(&laboratories, laboratory).map_or(own.calibration, |fit| fit.calibration);
+        (subject, laboratory, judged.bands(subject, &calibration))
     });
-    Outcome {
-        parameters: own,
+    Ok(Outcome {
         cost: least,
         cost_of_middle: cost(&parameters(&[0.5; NUMBERS.len()])),
         cost_of_shipped: cost(&FittedParameters::default()),
         sensitivity: sensitivity.collect(),
-        folds: folds.collect(),
+        folds: subjects.iter().map(|subject| fold(all, subject, &own, &laboratories)).collect(),
+        numbers_left_out: left_out,
+        bands: bands.collect(),
+        groups: gate::by_group(all.all(), &|laboratory| of_laboratory(&laboratories, laboratory)),
+        parameters: own,
+        laboratories,
+    })
+}
+
+/// The results of one of the people to whom the numbers are fitted.
+fn fold(
+    all: &Cases,
+    subject: &'static str,
+    own: &FittedParameters,
+    laboratories: &[(&'static str, FittedParameters)],
+) -> Fold {
+    let cases = &all.whole;
+    let laboratory = cases::laboratory(cases, subject);
+    let of_laboratory = of_laboratory(laboratories, laboratory).copied().unwrap_or(*own);
+    let parameters = [*own, of_laboratory];
+    Fold {
+        subject,
+        importance: cases::importance(cases, subject),
+        is_judged: cases::is_judged(cases, subject),
+        parameters,
+        costs: parameters.map(|fit| cases::subject_cost(cases, subject, &fit)),
+        figures: parameters.map(|fit| cases::figures(cases, subject, &fit)),
+        without_trunk: without_trunk(&all.without_trunk, subject, &of_laboratory),
     }
 }
 
 fn without_trunk(cases: &[Case], subject: &'static str, fit: &FittedParameters) -> Option<WithoutTrunk> {
-    cases.iter().find(|case| case.subject == subject)?;
-    let bands = Judged::new(cases, &[subject], &[*fit]).bands(subject, &fit.calibration);
+    let own = cases.iter().filter(|case| case.subject == subject);
+    own.clone().next()?;
+    let bands = Judged::new(own, &|_| Some(fit)).bands(subject, &fit.calibration);
     Some(WithoutTrunk { figures: cases::figures(cases, subject, fit), bands })
 }
 
-/// Parameters fitted on some subjects from the middle of the ranges, rounded, with the mean errors that are then left.
-fn fitted(cases: &[Case], subjects: &[&'static str], order: &Order, name: &str) -> FittedParameters {
+/// Parameters fitted on some subjects from the middle of the ranges, rounded.
+fn numbers_fitted(cases: &[Case], subjects: &[&'static str], order: &Order, name: &str) -> FittedParameters {
     let begun = Instant::now();
     let cost = |place: &[f64]| {
         let pull: f64 = place.iter().map(|x| (x - 0.5).powi(2)).sum();
@@ -247,9 +374,7 @@ fn fitted(cases: &[Case], subjects: &[&'static str], order: &Order, name: &str) 
     };
     let found = search::least(vec![0.5; NUMBERS.len()], order.evaluations, order.seed, &cost, &mut |_, _| ());
     progress(&format!("{name}: {:.4}, {:.0} s", found.cost, begun.elapsed().as_secs_f64()));
-    let mut parameters = rounded(parameters(&found.place));
-    parameters.errors = cases::mean_errors(cases, subjects, &parameters);
-    parameters
+    rounded(parameters(&found.place))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The fitted parameters with their plausible ranges, mapped to the unit cube.
 
-use ambulo::ground::predict::{DeviationCalibration, ErrorsByDescent, FittedParameters};
+use ambulo::ground::predict::{DeviationCalibration, ErrorsByTraits, FittedParameters};
 
 /// A fitted number.
 #[derive(Debug, Clone, Copy)]
@@ -65,15 +65,44 @@ impl Number {
 
 /// Parameters at a point of the unit cube, with the estimator's own standard deviations.
 pub(super) fn parameters(place: &[f64]) -> FittedParameters {
-    let mut parameters = FittedParameters {
-        errors: ErrorsByDescent::default(),
-        calibration: DeviationCalibration::UNSCALED,
-        ..FittedParameters::default()
-    };
+    let mut parameters = unfitted();
     for (number, place) in NUMBERS.iter().zip(place) {
         number.set(&mut parameters, number.at(*place));
     }
     parameters
+}
+
+/// The numbers of the crate without mean errors and calibration.
+pub(super) fn unfitted() -> FittedParameters {
+    FittedParameters {
+        errors: ErrorsByTraits::default(),
+        calibration: DeviationCalibration::UNSCALED,
+        ..FittedParameters::default()
+    }
+}
+
+/// Numbers as text: a line of comment, then a line for each laboratory.
+pub(super) fn written(fits: &[(&'static str, FittedParameters)]) -> String {
+    let line = |(name, fit): &(&'static str, FittedParameters)| {
+        let values: Vec<String> = NUMBERS.iter().map(|number| number.of(fit).to_string()).collect();
+        format!("{name};{}\n", values.join(";"))
+    };
+    let names: Vec<&str> = NUMBERS.iter().map(|number| number.name).collect();
+    let head = format!("# Made by `cargo xtask fit-ground`; laboratory left out, then {}\n", names.join(", "));
+    head + &fits.iter().map(line).collect::<String>()
+}
+
+/// The numbers of each laboratory in such a text; lines of another form are left out.
+pub(super) fn read(text: &str) -> Vec<(String, FittedParameters)> {
+    let of_line = |line: &str| {
+        let (name, values) = line.split_once(';')?;
+        let values: Vec<f64> = values.split(';').filter_map(|value| value.parse().ok()).collect();
+        let mut fit = unfitted();
+        let is_whole = values.len() == NUMBERS.len();
+        NUMBERS.iter().zip(values).for_each(|(number, value)| number.set(&mut fit, value));
+        is_whole.then(|| (name.to_owned(), fit))
+    };
+    text.lines().filter_map(of_line).collect()
 }
 
 /// With three significant digits.
@@ -115,6 +144,14 @@ mod tests {
                 assert_eq!(same, i != k, "{} against {}", number.name, other.name);
             }
         }
+    }
+
+    #[test]
+    fn numbers_are_read_as_they_were_written_and_cut_lines_are_left_out() {
+        let fit = rounded(parameters(&[0.3; NUMBERS.len()]));
+        let text = written(&[("here", fit)]);
+        assert_eq!(read(&text), [("here".to_owned(), fit)]);
+        assert!(read(&text[..text.len() - 20]).is_empty());
     }
 
     #[test]

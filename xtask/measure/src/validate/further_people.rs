@@ -1,6 +1,6 @@
-//! People of further laboratories, who have no part in the fit. Facts, masses and traps: README.md of the data. The
-//! plates of the runners have a scale fault, so the plates' mass is used there; their centre of pressure is wrong
-//! sideways.
+//! People of further laboratories, who have no part in the numbers of the fit. Facts, masses and traps: README.md of
+//! the data. The plates of the runners have a scale fault, so the plates' mass is used there; their centre of pressure
+//! is wrong sideways.
 
 use super::people::Person;
 use super::recording::{Group, Kind, Population, Recording};

@@ -2,7 +2,7 @@
 
 use super::{further_people, people};
 use ambulo::findings::Findings;
-use ambulo::ground::predict::{PersonalErrors, PredictSettings, Prescribed};
+use ambulo::ground::predict::{FittedParameters, PersonalErrors, PredictSettings, Prescribed};
 use ambulo::job::{FileError, FootColumns, ForceFiles, Job, ModelChoice};
 use ambulo::model::{BodyId, Marker};
 use ambulo::study::{
@@ -140,6 +140,11 @@ impl Recording {
     /// `prescribed` replaces estimates by truths.
     pub(crate) fn predict(&self, source: &Source, prescribed: Prescribed) -> Result<Outcome, String> {
         predicted(source, PredictSettings { prescribed, ..PredictSettings::default() })
+    }
+
+    /// The prediction with parameters that were fitted to others.
+    pub(crate) fn predict_with(&self, source: &Source, parameters: FittedParameters) -> Result<Outcome, String> {
+        predicted(source, PredictSettings { parameters, ..PredictSettings::default() })
     }
 
     /// The prediction with the calibration of a person.

@@ -15,6 +15,7 @@
 //! | `friction`              | horizontal over vertical force of a foot in stance for 0.03 s            | 0.6 |
 //! | `held_without_feet`     | vertical force needed for 0.1 s while no foot is in stance [BW]          | 0.2 |
 //! | `pull`                  | smallest vertical force needed for 0.1 s [BW]                            | above -0.15 |
+//! | `motion_bandwidth`      | bandwidth of the recorded motion of the feet, from V* = 0.45 on [Hz]     | from 7.4 |
 //! | `mass`                  | body mass by plates or a standing trial over the model's                 | 1 ± 0.05 |
 //!
 //! An offset of the model's mass centre is not subtracted; the tolerances include it. From the motion alone every force
@@ -35,6 +36,7 @@ mod needed_center;
 mod offsets;
 mod other_support;
 mod record;
+mod shown_motion;
 pub(crate) mod sustained;
 
 use super::cycles::Cycle;
@@ -136,6 +138,7 @@ pub fn prediction_checks(evidence: &CheckedPrediction<'_>, findings: &mut Findin
     needed_center::check(evidence, &record, &low_passed, &mut judgement);
     offsets::check(evidence, &record, &low_passed, &mut judgement);
     friction::check(evidence, &record, &mut judgement);
+    shown_motion::check(evidence, &record, &mut judgement);
     other_support::check(&record, &low_passed, &mut judgement);
     mass::check(evidence, &mut judgement);
     judgement.checks

@@ -73,7 +73,8 @@ pub(super) fn estimate(
     wanted: Range<usize>,
 ) -> Result<BySide<FootLoads>, PredictError> {
     let EstimateInputs { grid, stances: all, body_scale, parameters, .. } = *inputs;
-    let filters = EvidenceFilters::new(parameters.bandwidth_hz, inputs.motion_filter, grid, all);
+    let filters =
+        EvidenceFilters::new(parameters.bandwidth_hz, inputs.motion_filter, inputs.motion_bandwidth_hz, grid, all);
     let Extent { stances, evidence } = Extent::of(inputs, &wanted, filters.longest().reach_s(grid));
     let inputs = &EstimateInputs { stances: &stances, ..*inputs };
     let expectations: Vec<Expectation<'_>> =

@@ -1,7 +1,7 @@
 //! Parameters of the estimate: standard deviations and lengths, dimensionless or in seconds.
 
 use super::deviation_calibration::{DeviationCalibration, DeviationScaling};
-use super::stance_errors::{ErrorsByDescent, StanceCurve, StanceErrors};
+use super::stance_errors::{ErrorsByTraits, StanceCurve, StanceErrors};
 
 /// Fitted parameters of the estimate, from recordings with force plates by `cargo xtask fit-ground`;
 /// docs/measured/GROUND_FIT.md has their leave-one-out errors and sensitivities.
@@ -38,7 +38,7 @@ pub struct FittedParameters {
     /// Lateral distance of the centre of pressure from the middle of the foot [stature].
     pub center_outwards: f64,
     /// Mean errors of the estimate in walking, which are taken off.
-    pub errors: ErrorsByDescent,
+    pub errors: ErrorsByTraits,
     /// Calibration of the standard deviations with measured errors.
     pub calibration: DeviationCalibration,
 }
@@ -82,39 +82,51 @@ impl Default for FittedParameters {
 }
 
 /// Mean errors that also occur in subjects and laboratories left out.
-const ERRORS: ErrorsByDescent = ErrorsByDescent {
+const ERRORS: ErrorsByTraits = ErrorsByTraits {
     usual: StanceErrors {
         force: [
             StanceCurve([
-                0.0, 0.00424, 0.00349, -0.00038, -0.00253, 0.00358, 0.00531, -0.00169, -0.00319, -0.00161, -0.00415,
-                -0.00115, 0.01123, -0.00427, -0.0,
+                0.0, 0.00407, 0.00218, -0.00087, -0.00257, 0.00206, 0.00177, -0.00161, 3e-5, 0.00377, 0.00185, 0.00059,
+                0.00628, -0.00515, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.01417, -0.01072, -0.0049, 0.00205, -0.00018, 0.00254, 0.00526, 0.00538, -0.0181, -0.00552,
-                0.01293, -0.00017, -0.01225, 0.0,
+                0.0, -0.00569, -0.00978, 0.00255, 0.00358, -0.0068, -0.00026, 0.00976, 0.00684, -0.01648, 0.00253,
+                0.02386, -0.00841, -0.01392, 0.0,
             ]),
             StanceCurve([
-                0.0, 0.01102, 0.02073, 0.01821, -0.0002, -0.0032, -0.00308, -0.00376, 0.00298, 0.00393, 0.00566,
-                0.00268, 0.00481, 0.00917, -0.0,
+                0.0, 0.0087, 0.01724, 0.01583, 0.00063, -0.00409, -0.00439, -0.00372, 0.00257, 0.00379, 0.00226,
+                -0.00239, 0.00592, 0.01191, -0.0,
             ]),
         ],
         center: [
             StanceCurve([
-                -0.00101, -0.00495, -0.00591, -0.00378, -0.00298, -0.00833, -0.01073, -0.00099, 0.00242, -0.00077,
-                -0.00851, -0.00928, -0.00241, 0.00466, 0.003,
+                -0.00101, -0.0049, -0.00582, -0.0037, -0.00292, -0.00826, -0.01066, -0.0009, 0.00251, -0.00072,
+                -0.00848, -0.00929, -0.00239, 0.00468, 0.00299,
             ]),
             StanceCurve::NONE,
         ],
     },
-    by_descent: [
-        StanceCurve([
-            0.0, 0.06188, 0.09082, 0.06122, 0.02289, -0.00408, -0.03522, -0.01089, 0.00326, 0.00956, -0.01702,
-            -0.05134, -0.02801, 0.00744, 0.0,
-        ]),
-        StanceCurve([
-            0.0, -0.16254, -0.24906, -0.17144, -0.12418, -0.13146, 0.02458, 0.0216, -0.00628, -0.04288, 0.02838,
-            0.06395, 0.05238, 0.14545, 0.0,
-        ]),
+    changes: [
+        [StanceCurve::NONE; 3],
+        [
+            StanceCurve([
+                0.0, -0.06484, -0.08899, -0.06379, -0.06936, -0.07472, 0.00788, 0.00078, -0.00948, -0.01559, 0.02075,
+                0.03132, 0.02159, 0.05549, 0.0,
+            ]),
+            StanceCurve([
+                0.0, -0.06089, -0.09752, -0.079, -0.04364, -0.00921, 0.04134, 0.02459, -0.00602, -0.03282, -0.02113,
+                -0.01773, 0.00894, 0.05169, 0.0,
+            ]),
+            StanceCurve::NONE,
+        ],
+        [
+            StanceCurve::NONE,
+            StanceCurve::NONE,
+            StanceCurve([
+                0.0, -0.00386, -0.00278, -0.00056, -0.00144, -0.0012, -0.00222, -0.00172, 0.00137, -0.00095, -0.00722,
+                -0.00476, 0.00428, 0.00535, -0.0,
+            ]),
+        ],
     ],
 };
 
@@ -122,30 +134,32 @@ const ERRORS: ErrorsByDescent = ErrorsByDescent {
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [
-            DeviationScaling { factor: 0.954, floor: 0.0127 },
-            DeviationScaling { factor: 0.459, floor: 0.0 },
-            DeviationScaling { factor: 0.344, floor: 0.0 },
-            DeviationScaling { factor: 0.926, floor: 0.0104 },
-            DeviationScaling { factor: 1.23, floor: 0.00534 },
+            DeviationScaling { factor: 1.75, floor: 0.00938 },
+            DeviationScaling { factor: 1.32, floor: 0.00546 },
+            DeviationScaling { factor: 1.28, floor: 0.0 },
+            DeviationScaling { factor: 0.3, floor: 0.0134 },
+            DeviationScaling { factor: 0.33, floor: 0.0267 },
         ],
         [
-            DeviationScaling { factor: 2.26, floor: 0.0559 },
-            DeviationScaling { factor: 0.3, floor: 0.0326 },
-            DeviationScaling { factor: 1.68, floor: 0.0027 },
-            DeviationScaling { factor: 1.6, floor: 0.027 },
-            DeviationScaling { factor: 1.6, floor: 0.0423 },
+            DeviationScaling { factor: 2.22, floor: 0.0678 },
+            DeviationScaling { factor: 1.12, floor: 0.0138 },
+            DeviationScaling { factor: 1.19, floor: 0.00787 },
+            DeviationScaling { factor: 1.01, floor: 0.0275 },
+            DeviationScaling { factor: 1.05, floor: 0.0494 },
         ],
         [
-            DeviationScaling { factor: 0.5, floor: 0.0146 },
-            DeviationScaling { factor: 1.05, floor: 0.00375 },
+            DeviationScaling { factor: 1.28, floor: 0.00751 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
-            DeviationScaling { factor: 1.0, floor: 0.01 },
-            DeviationScaling { factor: 0.556, floor: 0.00266 },
+            DeviationScaling { factor: 0.3, floor: 0.0 },
+            DeviationScaling { factor: 0.99, floor: 0.00335 },
+            DeviationScaling { factor: 0.643, floor: 0.0 },
         ],
     ],
-    center: [DeviationScaling { factor: 0.848, floor: 0.00444 }, DeviationScaling { factor: 0.596, floor: 0.00207 }],
-    free_moment: DeviationScaling { factor: 0.684, floor: 0.0025 },
+    center: [DeviationScaling { factor: 0.3, floor: 0.017 }, DeviationScaling { factor: 0.3, floor: 0.00943 }],
+    free_moment: DeviationScaling { factor: 0.752, floor: 0.00295 },
     of_misfit: 0.5,
     of_center_misfit: 0.4,
     of_sideways: 0.1,
+    of_haste: [1.0, 1.0, 0.7],
+    of_smoothed: 0.3,
 };

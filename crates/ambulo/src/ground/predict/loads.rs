@@ -2,11 +2,13 @@
 
 use super::FootDeviation;
 use super::deviation_calibration::{Misfit, scaling_at};
+use super::evidence_filter::is_smoothed;
 use super::expected::Expectation;
 use super::forefoot::on_touching_part;
 use super::geometry::nearest_on_sole;
 use super::normal_equations::Solution;
 use super::samples::{ComponentSample, EstimateInputs, frames_of, sample};
+use super::stance_traits::HASTE;
 use super::stances::{GaitType, Stance};
 use super::unknowns::Curve;
 use crate::model::Side;
@@ -113,12 +115,8 @@ pub(super) fn loads(
             let remaining = inputs.remaining(stance);
             let weight = inputs.body_scale.weight_n;
             let calibration = &inputs.parameters.calibration;
-            let spread = |axis: usize, of: &Estimate| {
-                let scaled = scaling_at(&calibration.force[axis], phase).variance(of.variance, weight);
-                remaining * (scaled + calibration.of_trial(axis, misfit, right.value))
-            };
-            deviation.force[frame] =
-                rotated(axes, [spread(0, &forward), spread(1, &up), spread(2, &right)]) * run_factor;
+            let of_forces = inputs.force_variances(stance, phase, misfit, [&forward, &up, &right]);
+            deviation.force[frame] = rotated(axes, of_forces) * run_factor;
             let [along, across] = [(0, &about_right), (1, &about_forward)].map(|(axis, of)| {
                 let scaled = calibration.center[axis].variance(of.variance / vertical.powi(2), 1.0);
                 remaining * (scaled + calibration.center_of_trial(axis, misfit))
@@ -139,12 +137,25 @@ impl EstimateInputs<'_> {
         }
         let (side, errors) = (stance.side, &self.parameters.errors);
         let own = self.person.map_or(([0.0; 3], [0.0; 2]), |p| (p.force(side, phase), p.center(side, phase)));
-        let (force, center) = (errors.force(side, phase, stance.descent), errors.usual.center(side, phase));
+        let (force, center) = (errors.force(side, phase, &stance.traits), errors.usual.center(side, phase));
         for (of, error) in estimates.iter_mut().zip((0..3).map(|axis| force[axis] + own.0[axis])) {
             of.value += error * self.body_scale.weight_n;
         }
         let [along, across] = [0, 1].map(|axis| (center[axis] + own.1[axis]) * self.body_scale.height_m);
         stance.forward * along + stance.right * across
+    }
+
+    /// Calibrated variances of the forces forward, up and to the right [N²].
+    fn force_variances(&self, stance: &Stance, phase: f64, misfit: &Misfit, forces: [&Estimate; 3]) -> [f64; 3] {
+        let calibration = &self.parameters.calibration;
+        let haste = if stance.gait == GaitType::Walk { stance.traits[HASTE] } else { 0.0 };
+        let is_smoothed = is_smoothed(self.motion_bandwidth_hz);
+        std::array::from_fn(|axis| {
+            let scaling = scaling_at(&calibration.force[axis], phase);
+            let scaled = scaling.variance(forces[axis].variance, self.body_scale.weight_n);
+            let wider = calibration.widening(axis, haste, is_smoothed).powi(2);
+            self.remaining(stance) * wider * (scaled + calibration.of_trial(axis, misfit, forces[2].value))
+        })
     }
 
     /// Share of the variance of the errors that remains for this person.

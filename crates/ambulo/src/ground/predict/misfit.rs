@@ -31,6 +31,12 @@ pub(super) fn misfits(
     let frames = inputs.grid.frames;
     let required: Vec<Wrench> = (0..frames).map(|frame| inputs.about_mass_center(frame)).collect();
     let mut rest = low_passed(&required, &filters.gaussian, evidence);
+    if let Some(filter) = filters.smoothed() {
+        let up = inputs.body_scale.up;
+        for (rest, own) in rest.iter_mut().zip(low_passed(&required, filter, evidence)) {
+            rest.force += up * (own.force - rest.force).dot(&up);
+        }
+    }
     rest.iter_mut().for_each(|wrench| *wrench = Wrench { force: -wrench.force, moment: -wrench.moment });
     for (filter, passing) in filters.estimated() {
         let mut estimated = vec![Wrench::ZERO; frames];

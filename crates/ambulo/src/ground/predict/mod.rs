@@ -22,6 +22,7 @@ mod prescribed;
 mod samples;
 pub(crate) mod stance_curves;
 mod stance_errors;
+pub(crate) mod stance_traits;
 pub(crate) mod stances;
 pub(crate) mod strike_descent;
 mod total;
@@ -40,6 +41,8 @@ use crate::motion::filter::LowPass;
 use crate::spatial::{Vec3, Wrench};
 pub use deviation_calibration::{ByFifth, DeviationCalibration, DeviationScaling, scaling_at};
 use estimate::estimate;
+pub(crate) use evidence_filter::SMOOTHED_HZ;
+pub use evidence_filter::is_smoothed;
 pub use fitted_parameters::{FittedParameters, checksum};
 pub(super) use geometry::{Geometry, GeometryFrame};
 pub use personal::{OtherPerson, PersonalErrors};
@@ -47,10 +50,11 @@ pub use prescribed::Prescribed;
 use samples::EstimateInputs;
 use stance_curves::StanceCurves;
 pub(crate) use stance_errors::outwards_sign;
-pub use stance_errors::{Ends, ErrorSample, ErrorsByDescent, KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
+pub use stance_errors::{Ends, ErrorSample, ErrorsByTraits, KNOTS, REPEATS, StanceCurve, StanceErrors, trusted};
+pub(crate) use stance_traits::stance_traits;
+pub use stance_traits::{HASTE, TRAITS, Traits};
 use stances::{BodyScale, stances};
 use std::ops::Range;
-pub(crate) use strike_descent::strike_descents;
 pub use total::total_wrench;
 use unilateral::enforce_unilateral_contact;
 
@@ -76,6 +80,8 @@ pub struct Prediction {
     pub total: Vec<Wrench>,
     /// How forces were divided between the feet in double support, in words.
     pub rule: &'static str,
+    /// The bandwidth of the recorded motion [Hz]; `None` where it is not known.
+    pub motion_bandwidth_hz: Option<f64>,
 }
 
 /// Standard deviations of the prediction for one foot, one entry per frame; zero in swing.
@@ -125,6 +131,7 @@ impl Prediction {
             footfalls: Footfalls { falls, ..self.footfalls.clone() },
             total: self.total[frames.clone()].to_vec(),
             rule: self.rule,
+            motion_bandwidth_hz: self.motion_bandwidth_hz,
         }
     }
 }
@@ -140,6 +147,8 @@ pub struct PredictSettings {
     pub person: Option<PersonalErrors>,
     /// The low-pass filter that the motion has passed; `None` if it was not filtered.
     pub motion_filter: Option<LowPass>,
+    /// The bandwidth of the recorded motion before that filter [Hz]; `None` if it is not known.
+    pub motion_bandwidth_hz: Option<f64>,
 }
 
 /// Why forces cannot be predicted.
@@ -340,6 +349,7 @@ pub(super) fn predict_frames(
         prescribed: &settings.prescribed,
         person: settings.person.as_ref(),
         motion_filter: settings.motion_filter,
+        motion_bandwidth_hz: settings.motion_bandwidth_hz,
     };
     let mut feet = estimate(&inputs, curves, wanted)?;
     let up = body_scale.up;
@@ -353,7 +363,7 @@ pub(super) fn predict_frames(
     });
     let ground = GroundForces { bodies: ground.collect() };
     let rule = if settings.person.is_some() { RULE_OF_PERSON } else { RULE };
-    Ok(Prediction { ground, deviations, footfalls, total, rule })
+    Ok(Prediction { ground, deviations, footfalls, total, rule, motion_bandwidth_hz: settings.motion_bandwidth_hz })
 }
 
 /// Mass, size and gravity of a model.

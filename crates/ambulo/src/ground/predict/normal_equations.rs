@@ -17,6 +17,8 @@ const OBSERVED_EVERY_S: f64 = 0.04;
 const AT_THE_ENDS: f64 = 2.0;
 /// Memory limit for the equations, whose inverse takes their place [bytes]: ten minutes of walking take 30 MB.
 const MOST_BYTES: f64 = 1e9;
+/// Index of the upward force among the equations.
+const UP: usize = 1;
 /// Smaller coefficients, as a share of a standard deviation of the noise, are neglected.
 const NEGLIGIBLE: f64 = 1e-4;
 
@@ -197,6 +199,10 @@ impl NormalEquations<'_> {
             add(&mut required, &self.inputs.about_mass_center(tap), weight);
         }
         rows.rest = along(&required, &axes);
+        if let Some(filter) = self.filters.smoothed() {
+            let passed = |(tap, weight)| self.inputs.about_mass_center(tap).force.dot(&axes[UP]) * weight;
+            rows.rest[UP] = filter.around(frame, grid.frames).map(passed).sum();
+        }
         for (filter, passing) in self.filters.estimated() {
             let near = samples.iter().zip(&self.unknowns.curves).zip(self.inputs.stances);
             let near = near.filter_map(|((samples, curves), stance)| Some((samples.as_ref()?, curves, stance)));

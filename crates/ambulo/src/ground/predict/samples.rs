@@ -30,6 +30,8 @@ pub(super) struct EstimateInputs<'a> {
     pub(super) person: Option<&'a PersonalErrors>,
     /// The filter that the motion has passed.
     pub(super) motion_filter: Option<LowPass>,
+    /// Its bandwidth before it [Hz].
+    pub(super) motion_bandwidth_hz: Option<f64>,
 }
 
 impl EstimateInputs<'_> {

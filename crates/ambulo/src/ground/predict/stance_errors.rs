@@ -14,6 +14,7 @@
 //! trial of the person ([`REPEATS`]). Then the best linear estimate of the repeatable part after n trials is the mean
 //! curve times [`trusted`], and this share of the variance remains: 1 - ρ × trusted.
 
+use super::stance_traits::{TRAITS, Traits};
 use crate::model::Side;
 use crate::numerics::BandMatrix;
 
@@ -23,10 +24,13 @@ pub const KNOTS: [f64; 15] = [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.
 const HELD: f64 = 1e9;
 /// λ as a share of the mean diagonal.
 const RIDGE: f64 = 0.1;
-/// As above, for the curve of a usual strike and for its change with the descent. The curve itself is of little use in
-/// other laboratories and has a large ridge; of the ridges 0.03, 0.1 and 0.3 of the change the least gave the smallest
-/// errors of subjects and laboratories left out.
-const RIDGES_BY_DESCENT: [f64; 2] = [1.0, 0.03];
+/// As above, for the curve of a usual stance and for its changes with descent, haste and leg length: of the force
+/// forward, up and outwards. Chosen among 0.03 to 10 and [`UNUSED`] by the mean errors of groups of people whose
+/// laboratory was left out (docs/GROUND_FORCES.md; the gate of docs/measured/GROUND_FIT.md has each group).
+const RIDGES: [[f64; 1 + TRAITS]; 3] =
+    [[2.0, UNUSED, UNUSED, UNUSED], [1.0, 0.1, 0.1, UNUSED], [0.1, UNUSED, UNUSED, 0.3]];
+/// The ridge of a change that does not help people of other laboratories.
+const UNUSED: f64 = 1e9;
 /// ρ: share of the variance of the error of a stance that repeats in other trials of the same person and kind. Of the
 /// weights 0.5, 0.7 and 1 of one stance, 0.7 gave the smallest errors of the other stances of two subjects with five
 /// trials or stances of a foot.
@@ -61,8 +65,8 @@ pub struct ErrorSample {
     pub error: f64,
     /// Weight of the sample.
     pub weight: f64,
-    /// Descent of the mass centre at the strike of its stance (`strike_descents`).
-    pub descent: f64,
+    /// Traits of its stance (`stance_traits`).
+    pub traits: Traits,
 }
 
 impl StanceCurve {
@@ -83,11 +87,15 @@ impl StanceCurve {
         curve
     }
 
-    /// The mean curve of a usual strike, and its change for each unit of the descent, by least squares; zero at both
-    /// ends.
+    /// The mean curve of a usual stance of the force forward (0), up (1) or outwards (2), and its change for each unit
+    /// of each trait, by least squares; zero at both ends.
     #[must_use]
-    pub fn through_by_descent(samples: &[ErrorSample]) -> [StanceCurve; 2] {
-        curves_through(samples, |sample| [1.0, sample.descent], RIDGES_BY_DESCENT, Ends::Zero)
+    pub fn through_by_traits(samples: &[ErrorSample], axis: usize) -> [StanceCurve; 1 + TRAITS] {
+        let factors = |sample: &ErrorSample| {
+            let [descent, haste, leg] = sample.traits;
+            [1.0, descent, haste, leg]
+        };
+        curves_through(samples, factors, RIDGES[axis], Ends::Zero)
     }
 }
 
@@ -170,21 +178,24 @@ impl StanceErrors {
     }
 }
 
-/// Mean errors of the estimate in walking, which depend on the descent of the mass centre at the strike.
+/// Mean errors of the estimate in walking, which depend on traits of the stance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ErrorsByDescent {
-    /// Mean errors in a usual strike.
+pub struct ErrorsByTraits {
+    /// Mean errors in a usual stance.
     pub usual: StanceErrors,
-    /// Change of the force forward and up for each unit of the descent (`strike_descents`) [body weights].
-    pub by_descent: [StanceCurve; 2],
+    /// Change of the force forward, up and outwards for each unit of each trait (`stance_traits`) [body weights].
+    pub changes: [[StanceCurve; TRAITS]; 3],
 }
 
-impl ErrorsByDescent {
+impl ErrorsByTraits {
     /// Forward, up, to the right [body weights] at a share of the stance of a foot.
-    pub(super) fn force(&self, side: Side, phase: f64, descent: f64) -> [f64; 3] {
-        let [forward, up, right] = self.usual.force(side, phase);
-        let [more_forward, more_up] = self.by_descent.map(|curve| descent * curve.at(phase));
-        [forward + more_forward, up + more_up, right]
+    pub(super) fn force(&self, side: Side, phase: f64, traits: &Traits) -> [f64; 3] {
+        let usual = self.usual.force(side, phase);
+        let more = self
+            .changes
+            .each_ref()
+            .map(|curves| -> f64 { curves.iter().zip(traits).map(|(curve, size)| size * curve.at(phase)).sum() });
+        [usual[0] + more[0], usual[1] + more[1], usual[2] + outwards_sign(side) * more[2]]
     }
 }
 

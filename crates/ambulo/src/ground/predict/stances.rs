@@ -3,6 +3,7 @@
 use super::forefoot::heel_down;
 use super::geometry::Geometry;
 use super::stance_curves::{AtSpeed, StanceCurves};
+use super::stance_traits::{Traits, traits};
 use super::strike_descent::{CenterVelocity, Strike, descents};
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::model::Side;
@@ -55,8 +56,8 @@ pub struct Stance {
     pub heel_down_s: Option<f64>,
     /// Whether the stance before or after it is on another step of stairs.
     pub on_stairs: bool,
-    /// Descent of the mass centre at the strike, relative to a usual strike (`strike_descent`).
-    pub descent: f64,
+    /// Traits on which mean errors depend (`stance_traits`).
+    pub traits: Traits,
     /// Time [s] and phase of strike, other foot's off, other foot's strike, and off.
     pub knots: Vec<[f64; 2]>,
 }
@@ -146,7 +147,8 @@ pub(super) fn stances(
         out.iter().map(|stance| Strike { time_s: Some(stance.start_s), height_m: stance.height_m }).collect();
     let center = CenterVelocity { grid, velocity: &geometry.velocity };
     let found = descents(&strikes, center, body_scale.up, body_scale.leg_speed_m_s);
-    out.iter_mut().zip(found).for_each(|(stance, descent)| stance.descent = descent);
+    let leg_m = body_scale.leg_speed_m_s * body_scale.leg_time_s;
+    out.iter_mut().zip(found).for_each(|(stance, descent)| stance.traits = traits(descent, stance.speed, leg_m));
     let rises: Vec<bool> =
         out.windows(2).map(|pair| (pair[1].height_m - pair[0].height_m).abs() > LEAST_RISE_M).collect();
     for (i, stance) in out.iter_mut().enumerate() {
@@ -230,7 +232,7 @@ fn stance(
             .and_then(|_| heel_down(&geometry.feet[fall.side][first..=last], body_scale.up))
             .map(|frames| grid.time(first + frames)),
         on_stairs: false,
-        descent: 0.0,
+        traits: Traits::default(),
         knots,
     }
 }

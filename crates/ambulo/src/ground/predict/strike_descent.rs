@@ -9,9 +9,6 @@
 //! errors of subjects and laboratories left out, among 27 quantities of the motion of a stance. The others include
 //! walking speed, pitch of the foot, speed of the heel, lean of the shank and flexion of the knee.
 
-use crate::ground::footfalls::Footfalls;
-use crate::kinematics::{Trajectory, each_body_motion};
-use crate::model::Model;
 use crate::motion::TimeGrid;
 use crate::spatial::Vec3;
 
@@ -66,23 +63,4 @@ impl CenterVelocity<'_> {
         let of = |frame: usize| self.velocity[frame.min(last)].dot(&up);
         of(frame) + (of(frame + 1) - of(frame)) * share
     }
-}
-
-/// How much more than usual the mass centre descends at the strike of each stance, from 0 (as usual) to 0.85, negative
-/// if it descends less; 0 where the recording does not show the strike. The formula is at the top of
-/// `strike_descent.rs`.
-#[must_use]
-pub(crate) fn strike_descents(model: &Model, trajectory: &Trajectory, footfalls: &Footfalls) -> Vec<f64> {
-    let masses: Vec<f64> = model.bodies().iter().map(|body| body.inertia.mass()).collect();
-    let whole: f64 = masses.iter().sum();
-    let mut velocity = Vec::with_capacity(trajectory.grid().frames);
-    each_body_motion(model, trajectory, |_, bodies| {
-        let momentum: Vec3 = bodies.iter().zip(&masses).map(|(body, mass)| body.twist.linear * *mass).sum();
-        velocity.push(momentum / whole);
-    });
-    let strike =
-        |fall: &crate::ground::footfalls::Footfall| Strike { time_s: fall.strike_s, height_m: fall.floor_height_m };
-    let strikes: Vec<Strike> = footfalls.falls.iter().map(strike).collect();
-    let leg_speed_m_s = (model.stature().leg_length_m * model.gravity().norm()).sqrt();
-    descents(&strikes, CenterVelocity { grid: trajectory.grid(), velocity: &velocity }, model.up(), leg_speed_m_s)
 }

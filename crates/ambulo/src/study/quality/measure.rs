@@ -69,6 +69,8 @@ pub enum Measure {
     LowCutoff,
     /// Cut-off frequency, relative to the frame rate, that may be too high.
     HighCutoff,
+    /// Bandwidth of the recorded motion that forces were predicted from, relative to what its foot strikes need.
+    MotionBandwidth,
 }
 
 /// Limits of doubtful and of bad data.
@@ -82,7 +84,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 29] = [
+    pub const ALL: [Measure; 30] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -112,6 +114,7 @@ impl Measure {
         Measure::Tempo,
         Measure::LowCutoff,
         Measure::HighCutoff,
+        Measure::MotionBandwidth,
     ];
 
     /// The limits, in the unit of [`Measure::unit`].
@@ -147,6 +150,7 @@ impl Measure {
             Measure::Tempo => AtMost(1.1, 10.0),
             Measure::LowCutoff => AtLeast(3.0, 1.0),
             Measure::HighCutoff => AtMost(0.2, 0.4),
+            Measure::MotionBandwidth => AtLeast(1.0, 0.25),
         }
     }
 
@@ -213,6 +217,9 @@ impl Measure {
             }
             Measure::LowCutoff => "cut-off frequency of the motion: a low one removes the movement",
             Measure::HighCutoff => "cut-off frequency of the motion over the frame rate: a high one leaves noise",
+            Measure::MotionBandwidth => {
+                "bandwidth of the recorded motion over what its foot strikes need, where forces were predicted"
+            }
         }
     }
 
@@ -248,7 +255,8 @@ impl Measure {
             | Measure::DerivedPlace
             | Measure::FrameRate
             | Measure::Tempo
-            | Measure::HighCutoff => "1",
+            | Measure::HighCutoff
+            | Measure::MotionBandwidth => "1",
         }
     }
 

@@ -19,6 +19,7 @@ use super::origin::{ForceOrigin, Tracking};
 use super::region_fit::RegionFit;
 use super::timing::{ForceDelay, Tempo};
 use super::unmeasured_leg::UnmeasuredLeg;
+use crate::analysis::PredictionCheck;
 use crate::analysis::feasibility::{Check, Reason, Verdict};
 use crate::findings::word;
 use crate::kinematics::keypoints::{FrozenLegs, KeypointReport};
@@ -156,6 +157,8 @@ pub(super) struct QualityEvidence<'a> {
     /// The clock of the motion, if it is wrong.
     pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
+    /// What a recording shows of the foot strikes from which forces were predicted.
+    pub(super) shown: Option<&'a PredictionCheck>,
 }
 
 impl QualityEvidence<'_> {
@@ -163,7 +166,7 @@ impl QualityEvidence<'_> {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.trunk_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_person = [self.whose_markers(), self.unmeasured()];
-        let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff()];
+        let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff(), self.bandwidth()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
         let of_plates =
             [self.unchecked_forces(), self.unmeasured_leg(), self.unassigned_forces(), self.silent_plates()];
@@ -516,6 +519,20 @@ impl QualityEvidence<'_> {
             })
         };
         low.or_else(high)
+    }
+
+    /// Predicted forces miss the peaks that the motion no longer shows.
+    fn bandwidth(&self) -> Option<QualityReason> {
+        let failed = self.shown.filter(|check| check.passed == Some(false))?;
+        let PredictionCheck { value, allowed: [least, _], .. } = failed;
+        let share = (*value)? / least;
+        Measure::MotionBandwidth.reason(share, |_| {
+            format!(
+                "the motion was recorded up to {:.1} Hz, where foot strikes at this speed need {least:.1} Hz: peaks of \
+                 the predicted forces are missing",
+                share * least
+            )
+        })
     }
 }
 

@@ -19,7 +19,7 @@ const MARKERS_MM: f64 = 20.0;
 const UPPER_BODY_MM: f64 = 40.0;
 
 /// Checks of a prediction: name in the file, label, factor and unit as shown, digits.
-const CHECKS: [(&str, &str, f64, &str, usize); 10] = [
+const CHECKS: [(&str, &str, f64, &str, usize); 11] = [
     ("vertical_force_feet", "Mean vertical force on the feet over whole cycles", 1.0, "BW", 3),
     ("vertical_force_needed", "Mean vertical force required by the motion", 1.0, "BW", 3),
     ("fore_aft_impulse", "Mean fore-aft force minus mass times acceleration", 1.0, "BW", 3),
@@ -27,6 +27,7 @@ const CHECKS: [(&str, &str, f64, &str, usize); 10] = [
     ("forward_offset", "Required force: offset from the feet, forward", 1e3, "mm", 0),
     ("sideways_offset", "Required force: offset from the feet, sideways", 1e3, "mm", 0),
     ("friction", "Required friction coefficient", 1.0, "", 2),
+    ("motion_bandwidth", "Bandwidth of the recorded motion", 1.0, "Hz", 1),
     ("held_without_feet", "Required force without a foot on the ground", 1.0, "BW", 2),
     ("pull", "Minimum required vertical force", 1.0, "BW", 2),
     ("mass", "Mass measured by force plates / mass of the model", 1.0, "", 3),
