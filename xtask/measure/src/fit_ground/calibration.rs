@@ -99,9 +99,9 @@ impl Judged {
     /// Factors and floors without a laboratory, if one is named.
     pub(super) fn calibration(&self, left_out: Option<&str>) -> DeviationCalibration {
         let only = |one: &JudgedSubject| Some(one.laboratory) != left_out;
-        let whole = |component: usize| fitted(&self.of_component(component, 0..5, &only));
+        let whole = |component: usize| fitted(&self.of_component(component, 0..5, only));
         let of_fifth =
-            |component: usize| std::array::from_fn(|k| fitted(&self.of_component(component, k..k + 1, &only)));
+            |component: usize| std::array::from_fn(|k| fitted(&self.of_component(component, k..k + 1, only)));
         DeviationCalibration {
             force: std::array::from_fn(of_fifth),
             center: std::array::from_fn(|i| whole(3 + i)),

@@ -95,6 +95,9 @@ struct WithoutTrunk {
     bands: Bands,
 }
 
+/// Laboratories, each with parameters that were fitted without it.
+pub(crate) type Fits = Vec<(&'static str, FittedParameters)>;
+
 /// The results of the fit.
 struct Outcome {
     /// Fitted and calibrated on everybody.
@@ -107,13 +110,13 @@ struct Outcome {
     /// The people to whom the numbers are fitted.
     folds: Vec<Fold>,
     /// Each laboratory with the parameters that do not know it.
-    laboratories: Vec<(&'static str, FittedParameters)>,
+    laboratories: Fits,
     /// Bands of everybody who walks straight, the own laboratory left out.
     bands: Vec<(&'static str, &'static str, Bands)>,
     /// Errors of groups, the own laboratory left out.
     groups: Vec<gate::GroupErrors>,
     /// The numbers of the laboratories that have a part in them, without each of them.
-    numbers_left_out: Vec<(&'static str, FittedParameters)>,
+    numbers_left_out: Fits,
 }
 
 impl Outcome {
@@ -225,7 +228,7 @@ impl Numbers {
 const NUMBERS_LEFT_OUT: &str = "xtask/measure/src/fit_ground/numbers_left_out.csv";
 
 /// Parameters for each laboratory that were fitted and calibrated without it, in the order of the recordings.
-pub(crate) fn laboratories_left_out(data: &Path) -> Result<Vec<(&'static str, FittedParameters)>, String> {
+pub(crate) fn laboratories_left_out(data: &Path) -> Result<Fits, String> {
     let all = cases::load(data, &mut |label| progress(&format!("loading {label}")))?;
     let (own, left_out) = known_numbers(&all)?;
     let of = |laboratory: &str| of_laboratory(&left_out, laboratory).copied();
@@ -235,7 +238,7 @@ pub(crate) fn laboratories_left_out(data: &Path) -> Result<Vec<(&'static str, Fi
 }
 
 /// The numbers of the crate, and those that [`all_numbers`] has found last without each laboratory.
-fn known_numbers(all: &Cases) -> Result<(FittedParameters, Vec<(&'static str, FittedParameters)>), String> {
+fn known_numbers(all: &Cases) -> Result<(FittedParameters, Fits), String> {
     let path = workspace::root().join(NUMBERS_LEFT_OUT);
     let hint = "hint: `cargo xtask fit-ground --search` writes it";
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}. {hint}", path.display()))?;
@@ -251,7 +254,7 @@ fn known_numbers(all: &Cases) -> Result<(FittedParameters, Vec<(&'static str, Fi
 
 /// Numbers fitted to everybody who has a part in them, and without each of their laboratories; the fits run side by
 /// side.
-fn all_numbers(all: &Cases, order: &Order) -> (FittedParameters, Vec<(&'static str, FittedParameters)>) {
+fn all_numbers(all: &Cases, order: &Order) -> (FittedParameters, Fits) {
     let subjects = cases::subjects(&all.whole);
     let without = |laboratory: &'static str| {
         let is_other = |subject: &&str| cases::laboratory(&all.whole, subject) != laboratory;
@@ -269,11 +272,7 @@ fn all_numbers(all: &Cases, order: &Order) -> (FittedParameters, Vec<(&'static s
 }
 
 /// Numbers and mean errors without each laboratory. `numbers` gives those of the laboratories that have a part in them.
-fn without_each_laboratory(
-    all: &Cases,
-    own: &Numbers,
-    numbers: &dyn Fn(&str) -> Option<FittedParameters>,
-) -> Vec<(&'static str, FittedParameters)> {
+fn without_each_laboratory(all: &Cases, own: &Numbers, numbers: &dyn Fn(&str) -> Option<FittedParameters>) -> Fits {
     let without = |laboratory: &'static str| {
         let stays = |case: &Case| case.laboratory != laboratory;
         let parameters = match numbers(laboratory) {
@@ -290,7 +289,7 @@ fn of_laboratory<'a>(fits: &'a [(&'static str, FittedParameters)], laboratory: &
 }
 
 /// With the standard deviations that the others need.
-fn calibrated(fits: &[(&'static str, FittedParameters)], judged: &Judged) -> Vec<(&'static str, FittedParameters)> {
+fn calibrated(fits: &[(&'static str, FittedParameters)], judged: &Judged) -> Fits {
     let with = |(name, fit): &(&'static str, FittedParameters)| {
         (*name, FittedParameters { calibration: judged.calibration(Some(name)), ..*fit })
     };
