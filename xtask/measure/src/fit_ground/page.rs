@@ -295,8 +295,10 @@ fn bands(outcome: &Outcome) -> String {
 fn gate(outcome: &Outcome) -> String {
     format!(
         "{}\nMeans over feet, trials, people, then laboratories. Everybody is predicted with parameters that do not \
-         know the laboratory. Change: against the last version, with laboratories left out, too. A version that makes \
-         a group worse by more than 2 % does not replace it. Mean errors and deviations of walking do not change \
+         know the laboratory. Change: against the last version, with laboratories left out, too. Walking \
+         adults, walking children and runners decide: a version that makes one of them worse by more than 2 % does not \
+         replace the last one. The other groups are few people of one or two laboratories; GROUND_FORCES.md says what \
+         they lose. Mean errors and deviations of walking do not change \
          runners.\n",
         super::gate::table(&outcome.groups)
     )
