@@ -119,7 +119,7 @@ pub(crate) fn fit_body_to_markers(
     let (mut fit, followed, keypoints) = followed(&subject, (keypoints, markers), &settings, findings)?;
     let recorded_markers = report_use(&subject, &fit, (&followed, set), findings);
     if let (Some(standing), None) = (&standing, &keypoints) {
-        let moved = identity::moved(&subject, [&followed, standing], &settings);
+        let moved = identity::moved(&subject, &followed, &settings);
         identity::report_standing_trial([&followed, standing], &moved, set, &mut contradictions, findings);
     }
     let mut cross_talk = BySide::default();

@@ -10,12 +10,6 @@
 //! with [`MOVED_SKIN_M`] for markers of the pelvis, where soft tissue lies under the skin, and for those that show no
 //! joint.
 //!
-//! Where few markers show a leg, the body follows the one that moved, and r is small. For markers that define a knee or
-//! ankle, d > [`CONTRADICTED_M`] is therefore enough if e, the root mean square change of the distances to the other
-//! markers of the same thigh or shank and across a joint at the marker, is above [`APART_M`] and [`APART`] times the
-//! median of these markers. In 40 clean walks of 20 people with standing trials (4 laboratories) none is: e is at most
-//! 4 mm with markers on the outside of the leg, 8 mm with more markers, of which then all have moved by half as much.
-//!
 //! A displacement along a limb changes its length by d, a displacement across it only in the second order. The whole
 //! body is therefore fitted, and distances alone are not used.
 
@@ -24,9 +18,9 @@ use super::Contradictions;
 use crate::findings::{Code, Findings};
 use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::kinematics::{Posture, body_motion};
-use crate::model::{BodyId, CoordinateId, Marker, Model};
+use crate::model::{CoordinateId, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::{median, rms};
+use crate::numerics::median;
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
@@ -36,12 +30,6 @@ const MOVED_M: f64 = 0.025;
 const MOVED_SKIN_M: f64 = 0.035;
 /// How far the other markers must contradict it [m].
 const CONTRADICTED_M: f64 = 0.017;
-/// How much the distances to the other markers of thigh and shank must change, root mean square [m].
-const APART_M: f64 = 0.005;
-/// ... and how many times as much as the median of the markers.
-const APART: f64 = 3.0;
-/// A joint is at a marker if it is nearer than this [m]: half of a wide knee with skin and marker.
-const AT_JOINT_M: f64 = 0.08;
 /// Markers that are nearer to their place than this in the common fit are not tested [m]: √(r · r₀) is larger than
 /// [`CONTRADICTED_M`] only if r is, or if the marker determines the body almost alone.
 const SUSPICIOUS_M: f64 = 0.008;
@@ -53,13 +41,9 @@ const FRAMES: usize = 12;
 pub(super) const ANOTHER_PERSON: usize = 3;
 
 /// The markers of legs and pelvis that moved, each with distance and direction; no more than show another person.
-pub(in crate::analysis) fn moved(
-    subject: &Subject,
-    [moving, standing]: [&MarkerRecording; 2],
-    settings: &FitSettings,
-) -> Vec<String> {
-    let [sample, still] = [moving, standing].map(|recording| recording.sample(FRAMES));
-    let mut fitter = Fitter { subject, sample: &sample, still: &still, settings, left_out: Vec::new() };
+pub(in crate::analysis) fn moved(subject: &Subject, moving: &MarkerRecording, settings: &FitSettings) -> Vec<String> {
+    let sample = moving.sample(FRAMES);
+    let mut fitter = Fitter { subject, sample: &sample, settings, left_out: Vec::new() };
     let mut moved = Vec::new();
     while moved.len() < ANOTHER_PERSON {
         let Some((name, away)) = fitter.farthest() else { break };
@@ -102,7 +86,6 @@ fn way(away: Vec3) -> &'static str {
 struct Fitter<'a> {
     subject: &'a Subject,
     sample: &'a MarkerRecording,
-    still: &'a MarkerRecording,
     settings: &'a FitSettings,
     /// Markers that are known to have moved.
     left_out: Vec<String>,
@@ -118,12 +101,9 @@ impl Fitter<'_> {
         let anatomy = self.model().anatomy();
         let marker = self.model().markers().iter().find(|marker| marker.name == name);
         let is_on_pelvis = marker.is_some_and(|marker| marker.body == anatomy.pelvis());
-        if is_on_pelvis || !self.is_at_joint(name) { MOVED_SKIN_M } else { MOVED_M }
-    }
-
-    /// Whether a marker defines a joint, which has the weight 1.
-    fn is_at_joint(&self, name: &str) -> bool {
-        self.subject.weights.get(name).is_none_or(|weight| *weight >= 1.0)
+        // Markers that define joints have the weight 1.
+        let is_at_joint = self.subject.weights.get(name).is_none_or(|weight| *weight >= 1.0);
+        if is_on_pelvis || !is_at_joint { MOVED_SKIN_M } else { MOVED_M }
     }
 
     /// The markers of pelvis and legs that the sample has.
@@ -146,62 +126,22 @@ impl Fitter<'_> {
         self.model().markers().iter().filter(is_own).filter(is_seen)
     }
 
-    /// By how much the distances of a marker to the others of its thigh or shank differ from those of the standing
-    /// trial, root mean square [m]; `None` for markers elsewhere, and without others.
-    fn apart_m(&self, name: &str) -> Option<f64> {
-        let model = self.model();
-        let legs = model.anatomy().legs();
-        let rigid: Vec<BodyId> = legs.values().flatten().flat_map(|leg| [leg.thigh, leg.shank]).collect();
-        let own = self.markers().find(|marker| marker.name == name)?;
-        if !own.body.is_some_and(|body| rigid.contains(&body)) {
-            return None;
-        }
-        // The joint between two bodies is where the axes of the outer one begin.
-        let meet_at = |a: &Marker, b: &Marker| {
-            let joint = &model.bodies()[b.body?.index()].joint;
-            let place = joint.parent_from_joint.translation;
-            (joint.parent == a.body && (a.location - place).norm() < AT_JOINT_M).then_some(())
-        };
-        let is_fixed = |other: &&Marker| {
-            other.name != name
-                && !self.left_out.contains(&other.name)
-                && other.body.is_some_and(|body| rigid.contains(&body))
-                && (other.body == own.body || meet_at(own, other).or(meet_at(other, own)).is_some())
-        };
-        let distance = |recording: &MarkerRecording, other: &Marker| {
-            let [a, b] = [own, other].map(|marker| recording.marker(&marker.name));
-            let (a, b) = a.zip(b)?;
-            let both = (0..recording.frames()).filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
-            median(both.map(|frame| (a.positions[frame] - b.positions[frame]).norm()))
-        };
-        let change = |other: &Marker| Some(distance(self.sample, other)? - distance(self.still, other)?);
-        let changes: Vec<f64> = self.markers().filter(is_fixed).filter_map(change).collect();
-        (!changes.is_empty()).then(|| rms(&changes))
-    }
-
     /// The marker that moved furthest, with the displacement in the axes of its segment [m].
     fn farthest(&self) -> Option<(String, Vec3)> {
         let with_all = self.distances(None)?;
-        let apart: BTreeMap<&String, f64> =
-            with_all.keys().filter_map(|name| Some((name, self.apart_m(name)?))).collect();
-        let usual_m = median(apart.values().copied()).unwrap_or(0.0);
-        let limit_m = APART_M.max(APART * usual_m);
-        let is_apart = |name: &String| self.is_at_joint(name) && apart.get(name).is_some_and(|own| *own > limit_m);
         let mut suspicious: Vec<(&String, Vec3)> = with_all
             .iter()
-            .filter(|(name, own)| own.norm() > SUSPICIOUS_M || is_apart(name))
-            .filter(|(name, _)| !self.left_out.contains(name))
+            .filter(|(name, own)| own.norm() > SUSPICIOUS_M && !self.left_out.contains(name))
             .map(|(name, own)| (name, *own))
             .collect();
-        suspicious.sort_by(|a, b| is_apart(b.0).cmp(&is_apart(a.0)).then(b.1.norm().total_cmp(&a.1.norm())));
+        suspicious.sort_by(|a, b| b.1.norm().total_cmp(&a.1.norm()));
         let moved = suspicious.into_iter().take(MOST_ASKED).filter_map(|(name, own)| {
             let away = *self.distances(Some(name))?.get(name)?;
-            let is_contradicted = away.norm() > self.limit_m(name) && own.dot(&away).max(0.0).sqrt() > CONTRADICTED_M;
-            let is_moved = is_contradicted || away.norm() > CONTRADICTED_M && is_apart(name);
+            let contradicted = own.dot(&away).max(0.0).sqrt();
             // Of two candidates the one that stands against the others by itself: a toe shows the ankle angle almost
             // alone, so that it is far away when another marker of the foot moved.
             let rank = own.dot(&away) / away.norm();
-            is_moved.then(|| (name.clone(), away, rank))
+            (away.norm() > self.limit_m(name) && contradicted > CONTRADICTED_M).then(|| (name.clone(), away, rank))
         });
         let worst = moved.max_by(|a, b| a.2.total_cmp(&b.2));
         worst.map(|(name, away, _)| (name, away))
