@@ -81,8 +81,7 @@ fn walked(walk: &FigureWalk) -> FigureWalked {
     let place = |row: usize| root.map_or(Vec3::zeros(), |root| center(model, &poses(recording, row), root));
     let pelvis: Vec<Vec3> = (0..grid.frames).map(place).collect();
     let height = |row: usize| pelvis[row].dot(&up) - ground[row];
-    // A height that is not a number is a fall.
-    let has_fallen = |row: &usize| !(height(*row) >= FALLEN * height(0));
+    let has_fallen = |row: &usize| height(*row).is_nan() || height(*row) < FALLEN * height(0);
     let fall = (0..grid.frames).find(has_fallen);
     let last = fall.unwrap_or(grid.frames - 1);
     let moved = pelvis[last] - pelvis[0];

@@ -1,7 +1,8 @@
 //! Errors by kind of people and movement, with the laboratory left out, against those of the last version.
 //!
 //! A version that makes walking adults, walking children or runners worse by more than 2 % does not replace the last
-//! one; the other groups are shown. Errors of the last version are in `last_version.csv`; `cargo xtask fit-ground --keep` writes those of this one there.
+//! one; the other groups are shown. Errors of the last version are in `last_version.csv`;
+//! `cargo xtask fit-ground --keep` writes those of this one there.
 
 use super::cases::{Case, mean, named};
 use crate::validate::recording::{Group, Population};

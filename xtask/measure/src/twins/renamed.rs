@@ -57,7 +57,8 @@ pub(super) fn section(data: &Path, only: &str) -> Result<String, String> {
         }
     }
     Ok(format!(
-        "## Markers without names\n\nAt most {KEPT} technical markers of each thigh and shank are left, with names that \
+        "## Markers without names\n\nAt most {KEPT} technical markers of each thigh and shank are left, with names \
+         that \
          say nothing, and knee and ankle markers are in the\nstanding trial alone. `used`: markers that the body \
          follows, of all; `vertical`: error of the predicted vertical force, mean of the\nfeet [% of body weight]; \
          root mean square difference of the measured moments of both legs from those with all names [N.m/kg].\n\n{}",
