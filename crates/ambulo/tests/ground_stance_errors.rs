@@ -48,7 +48,7 @@ fn forces_have_no_error_at_the_ends_and_depend_on_the_traits_of_each_stance() {
         } else {
             assert!((at(0.5) - at(0.0)).abs() < 1e-6, "{}", at(0.5) - at(0.0));
         }
-        // Traits that nobody has change nothing.
+        // A trait that is 0 in all stances has no curve.
         let others = changes.iter().enumerate().filter(|(other, _)| *other != trait_of);
         others.for_each(|(_, curve)| assert!(curve.at(0.5).abs() < 1e-9));
     }

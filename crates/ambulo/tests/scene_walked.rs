@@ -5,7 +5,7 @@ use crate::scene_walkers::{example, scene};
 use ambulo::findings::{Code, Findings};
 use ambulo::simulation::{FigureWalked, scene_walked};
 
-/// What became of the figure of a scene, and the findings of its run.
+/// How far the figure of a scene walked, and the findings of its run.
 fn walked(text: &str) -> (FigureWalked, Findings) {
     let (mut scene, mut findings) = (scene(text), Findings::default());
     scene.run(&mut findings, |_| {}).unwrap();

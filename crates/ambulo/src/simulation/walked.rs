@@ -32,7 +32,7 @@ const NEAR_M: f64 = 0.08;
 /// Parts are watched from so long before the fall on [s].
 const BEFORE_S: f64 = 0.5;
 
-/// What became of a walking figure.
+/// How far a figure walked and whether it fell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FigureWalked {
@@ -60,7 +60,7 @@ impl FigureWalked {
     }
 }
 
-/// What became of every walking figure of a scene, in the order of the file.
+/// How far each walking figure of a scene walked and whether it fell, in the order of the file.
 ///
 /// # Errors
 /// A scene that has not been stepped.
@@ -148,7 +148,7 @@ fn parts(model: &Model) -> BTreeMap<BodyId, String> {
         .map(|body| (body, model.bodies()[body.index()].name.clone()))
         .collect();
     for Leg { hip, knee, ankle, foot, .. } in model.anatomy().legs().values().flatten() {
-        // What stands on the ground in every step is no fall.
+        // Feet and ankles touch the ground in every step; that is no fall.
         let carried = |body: BodyId| std::iter::successors(Some(body), |own| model.bodies()[own.index()].joint.parent);
         parts.retain(|body, _| !carried(*body).any(|own| own == *ankle || own == *foot));
         parts.insert(*hip, "hip".to_owned());

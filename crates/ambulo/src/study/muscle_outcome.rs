@@ -26,8 +26,8 @@ pub struct MuscleOutcome {
     pub trial: MuscleTrial,
     /// Loads of hip, knee and ankle; `None` for a leg that the model does not have.
     pub loads: BySide<Option<LegLoads>>,
-    /// The same with the measured forces of [`PredictedGround::measured`](super::PredictedGround::measured), where
-    /// forces were predicted beside them.
+    /// The same with the measured forces of [`PredictedGround::measured`](super::PredictedGround::measured), for a
+    /// result that holds measured and predicted forces.
     pub measured_loads: Option<BySide<Option<LegLoads>>>,
     /// Envelopes of the recorded channels.
     pub emg: Option<EmgTrial>,

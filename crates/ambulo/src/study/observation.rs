@@ -618,7 +618,7 @@ impl MarkerSource {
         BodyMeasurements::from_processing(|name| self.stated(|file| file.subject.processing(name)))
     }
 
-    /// What the standing trial states, otherwise the trial.
+    /// A value that the standing trial states, or the trial if the standing trial does not.
     fn stated(&self, of: impl Fn(&LaboratoryFile) -> Option<f64>) -> Option<f64> {
         self.standing.as_ref().and_then(|standing| of(standing)).or_else(|| of(&self.trial))
     }

@@ -1,4 +1,4 @@
-//! What several tests compute, each once in a process.
+//! Results that several tests need; each is computed once in a process.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};

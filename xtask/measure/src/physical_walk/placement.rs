@@ -14,7 +14,7 @@ const TRUNK_DAMPING_S: f64 = 0.1;
 /// Steps that are asked for.
 const STEPS: usize = 100;
 
-/// What became of the best gains.
+/// The best gains on the pushes.
 pub(super) struct Results {
     tried: usize,
     /// Gains with which all steps were walked.

@@ -35,7 +35,7 @@ const FEWEST: usize = 4;
 /// The length of a limb.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Limb {
-    /// What it is the distance of.
+    /// In words, such as `pelvis width`.
     name: String,
     length_m: f64,
     /// By what share of its length it is longer in the motion than in the standing trial.

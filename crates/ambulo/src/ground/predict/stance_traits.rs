@@ -8,7 +8,7 @@
 //! | leg     | (L - 0.85 m) / 0.1 m                 | L from 0.6 to 1 m    |
 //!
 //! They were chosen by the errors of people whose laboratory was left out (docs/GROUND_FORCES.md). Beyond the bounds,
-//! where nobody was measured, nothing changes any more.
+//! where nobody was measured, a trait keeps the value that it has at the bound.
 
 use super::strike_descent::{CenterVelocity, Strike, descents};
 use crate::ground::footfalls::{Footfall, Footfalls};

@@ -157,7 +157,7 @@ pub(super) struct QualityEvidence<'a> {
     /// The clock of the motion, if it is wrong.
     pub(super) tempo: Option<Tempo>,
     pub(super) verdict: &'a Verdict,
-    /// What a recording shows of the foot strikes from which forces were predicted.
+    /// How well the motion shows the foot strikes from which forces were predicted.
     pub(super) shown: Option<&'a PredictionCheck>,
 }
 
