@@ -68,6 +68,47 @@ fn the_feedback_of_a_periodic_system_costs_least() {
     }
 }
 
+/// A system of six states and two inputs.
+fn six_states() -> StepMap {
+    let by_state = DMatrix::from_fn(6, 6, |i, j| {
+        let x = (7 * i + 3 * j) as f64;
+        if i == j { 1.05 } else { 0.1 * x.sin() }
+    });
+    StepMap { by_state, by_input: DMatrix::from_fn(6, 2, |i, j| 0.5 * ((5 * i + 11 * j) as f64).cos()) }
+}
+
+fn apart(a: &DMatrix<f64>, b: &DMatrix<f64>) -> f64 {
+    (a - b).norm() / b.norm()
+}
+
+/// P after some steps by the recursion itself, from P = Q.
+#[test]
+fn repeated_steps_have_the_gain_of_the_recursion() {
+    let step = six_states();
+    let StepMap { by_state: a, by_input: b } = &step;
+    let costs = Costs { state: DMatrix::identity(6, 6), input: DMatrix::identity(2, 2) * 0.2 };
+    let mut value = costs.state.clone();
+    for times in 1..40 {
+        let inverse = (&costs.input + b.transpose() * &value * b).try_inverse().unwrap();
+        let gain = inverse * b.transpose() * &value * a;
+        value = &costs.state + a.transpose() * &value * (a - b * &gain);
+        let (found, of_start) = costs.repeated(&step, times).unwrap();
+        assert!(apart(&found, &gain) < 1e-9 && apart(&of_start, &value) < 1e-9, "{times} times");
+    }
+    assert!(costs.repeated(&step, 0).is_none());
+}
+
+#[test]
+fn the_gain_of_a_period_of_one_step_is_that_of_many_repetitions() {
+    let step = six_states();
+    let costs = Costs { state: DMatrix::identity(6, 6), input: DMatrix::identity(2, 2) * 0.2 };
+    let (many, of_many) = costs.repeated(&step, 3000).unwrap();
+    for period in 1..4 {
+        let (gains, value) = costs.periodic(&vec![step.clone(); period]).unwrap();
+        assert!(gains.iter().all(|gain| apart(gain, &many) < 1e-9) && apart(&value, &of_many) < 1e-9, "{period}");
+    }
+}
+
 #[test]
 fn a_system_that_no_input_reaches_has_no_gains() {
     let steps = [StepMap { by_state: scalar(1.2), by_input: scalar(0.0) }];
