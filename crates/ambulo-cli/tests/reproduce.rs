@@ -2,6 +2,17 @@
 
 use crate::workbench::Workbench;
 use std::path::Path;
+use std::sync::OnceLock;
+
+/// The folder with `paper`, which `ambulo reproduce --brief` wrote, and what it printed; other tests read it, too.
+pub(crate) fn recomputed() -> &'static (Workbench, String) {
+    static RECOMPUTED: OnceLock<(Workbench, String)> = OnceLock::new();
+    RECOMPUTED.get_or_init(|| {
+        let bench = Workbench::empty("reproduce");
+        let stdout = bench.run(&["reproduce", "--brief", "-o", "paper"]).done().stdout;
+        (bench, stdout)
+    })
+}
 
 fn page() -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/REPRODUCTION.md")).unwrap()
@@ -9,9 +20,8 @@ fn page() -> String {
 
 #[test]
 fn the_paper_is_recomputed_into_the_documented_files() {
-    let bench = Workbench::empty("reproduce");
-    let run = bench.run(&["reproduce", "--brief", "-o", "paper"]).done();
-    assert!(run.stdout.contains("a1  holds") && run.stdout.contains(" claims of the paper hold"), "{}", run.stdout);
+    let (bench, stdout) = recomputed();
+    assert!(stdout.contains("a1  holds") && stdout.contains(" claims of the paper hold"), "{stdout}");
     bench.run(&["view", "paper"]).done();
     bench.run(&["report", "paper"]).refused(&["`ambulo reproduce` wrote this folder"]);
     let claims = bench.json("paper/claims.json");
@@ -73,8 +83,8 @@ fn the_paper_is_recomputed_into_the_documented_files() {
             .starts_with("what,value,range,source,why,other,claim,headline,with_value,with_other,turns\n")
     );
     assert_eq!(bench.text("paper/assumptions.csv").lines().count(), 1 + 45);
-    the_setting_is_written(&bench, &run.stdout, rows);
-    the_torques_are_replayed(&bench);
+    the_setting_is_written(bench, stdout, rows);
+    the_torques_are_replayed(bench);
     the_page_says_what_the_files_say(&bench.text("paper/report.html"), rows);
 }
 
