@@ -29,7 +29,7 @@ const fn spoiled(what: &'static str, measure: Measure, spoil: fn(&mut Source, &m
     Spoiled { what, measure, spoil }
 }
 
-const SPOILED: [Spoiled; 13] = [
+const SPOILED: [Spoiled; 14] = [
     spoiled("a body of 85 % of the mass", Measure::Mass, |source, _| {
         let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
         let MarkerBody::BuiltIn { mass_kg: Some(mass_kg), .. } = &mut markers.body else { panic!("no stated mass") };
@@ -47,6 +47,12 @@ const SPOILED: [Spoiled; 13] = [
     }),
     spoiled("plates with the fore-aft force mirrored", Measure::ForceDirections, |source, _| {
         each_plate(source, |plate| *plate = plate.flipped(1));
+    }),
+    spoiled("plates 60 mm beside their place", Measure::PlatePlace, |source, _| {
+        each_plate(source, |plate| {
+            let axis = plate.axes().unwrap()[0];
+            move_plate(plate, axis * 0.06 * axis.sum().signum());
+        });
     }),
     spoiled("a walk on another scale than the standing trial", Measure::MarkerFit, |source, _| {
         each_marker(source, |_, position| *position *= 1.1);
@@ -92,13 +98,20 @@ fn exchange_plates(source: &mut Source) {
     for (corner, other) in first.corners.iter_mut().zip(&mut second.corners) {
         (*corner, *other) = (*other, *corner);
     }
-    let moved = |plate: &mut PlateRecording, by: Vec3| {
-        for (moment, force) in plate.moment.iter_mut().zip(&plate.force) {
-            *moment += by.cross(force);
-        }
-    };
-    moved(first, apart);
-    moved(second, -apart);
+    move_loads(first, apart);
+    move_loads(second, -apart);
+}
+
+/// The plate and its loads are elsewhere.
+fn move_plate(plate: &mut PlateRecording, by: Vec3) {
+    plate.corners.iter_mut().for_each(|corner| *corner += by);
+    move_loads(plate, by);
+}
+
+fn move_loads(plate: &mut PlateRecording, by: Vec3) {
+    for (moment, force) in plate.moment.iter_mut().zip(&plate.force) {
+        *moment += by.cross(force);
+    }
 }
 
 /// Moves every marker of the walk, as a function of time [s] and its position in the laboratory.

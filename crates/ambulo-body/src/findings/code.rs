@@ -528,6 +528,9 @@ codes! {
         "A horizontal force of a plate or a force table points away from the mass centre where it must point towards \
          it: it is mirrored or turned."
         "State the correction of the plate, or correct the sign of the channel or column.";
+    PlatesMisplaced "plates.misplaced" Warning
+        "The centres of pressure of both feet lie to the same side of them: plates or markers are moved sideways."
+        "Correct FORCE_PLATFORM:CORNERS in the file, or the places of the force table.";
     PlatesCrossTalk "plates.cross_talk" Warning
         "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."
         "Check cables and amplifiers of the plates.";

@@ -12,7 +12,7 @@ use super::observation::{Observation, ObservedMotion, Origin};
 use super::origin::{ForceOrigin, TrackedMarkers, Tracking};
 use super::outcome::{Outcome, PredictedGround, Processing};
 use super::prediction::{Found, predicted, with_markers};
-use super::quality::{Measure, Quality, QualityEvidence, RecordedFaults, StanceHeights};
+use super::quality::{Measure, PlatePlace, Quality, QualityEvidence, RecordedFaults, StanceHeights};
 use super::refit::refitted;
 use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
@@ -252,6 +252,10 @@ impl Computed {
         let unmeasured_leg = UnmeasuredLeg::of(&stances, &self.idle);
         unmeasured_leg.iter().for_each(|leg| leg.report(findings));
         let strides = times_and_distances(body, &person.soles, analysis);
+        let measured = *force_origin == ForceOrigin::Measured;
+        let place_of = || PlatePlace::of(body, &analysis.trajectory, &person.soles, &analysis.ground);
+        let place = measured.then(place_of).flatten();
+        place.iter().for_each(|place| place.report(findings));
         let by_gait = || tempo_of_gait(body, person, analysis, &falls, &strides, activity.kind, findings);
         let evidence = QualityEvidence {
             recorded: self.recorded.as_ref(),
@@ -268,8 +272,9 @@ impl Computed {
             unmeasured_leg: unmeasured_leg.as_ref(),
             directions: &self.directions,
             heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &falls, activity.kind),
+            place,
             verdict: &verdict,
-            delay: self.timing.delay.filter(|_| *force_origin == ForceOrigin::Measured),
+            delay: self.timing.delay.filter(|_| measured),
             tempo: self.timing.tempo.or_else(by_gait),
             shown: prediction.and_then(|found| found.checks.get("motion_bandwidth")),
         };

@@ -45,7 +45,7 @@ pub(super) const FAULTS: &[Fault] = &[
         codes: CORNERS,
         spoil: |t| corners_of_one(t, |[a, b, c, d]| [c, d, a, b]),
     },
-    Fault { name: "plates 60 mm sideways", codes: NOT_GOOD, spoil: |t| plates_moved(t, false, 60.0) },
+    Fault { name: "plates 60 mm sideways", codes: &["plates.misplaced"], spoil: |t| plates_moved(t, false, 60.0) },
     Fault { name: "plates 100 mm forward", codes: NOT_GOOD, spoil: |t| plates_moved(t, true, 100.0) },
     Fault { name: "forces in kilonewton", codes: UNIT, spoil: |t| scaled(t, 1e-3) },
     Fault { name: "forces in body weights of 70 kg", codes: UNIT, spoil: |t| scaled(t, 1.0 / 686.5) },

@@ -49,6 +49,8 @@ pub enum Measure {
     Sliding,
     /// Distance of the measured centre of pressure from the sole.
     CenterOfPressure,
+    /// Distance of the measured centres of pressure from the lines of the soles, to one side.
+    PlatePlace,
     /// Distance of the sole of a stance from the floor of the other stances of the foot.
     StanceHeight,
     /// Number of jumps of coordinates.
@@ -84,7 +86,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 30] = [
+    pub const ALL: [Measure; 31] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -104,6 +106,7 @@ impl Measure {
         Measure::Gaps,
         Measure::Sliding,
         Measure::CenterOfPressure,
+        Measure::PlatePlace,
         Measure::StanceHeight,
         Measure::Jumps,
         Measure::FrozenPoints,
@@ -140,6 +143,7 @@ impl Measure {
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
             Measure::CenterOfPressure => AtMost(0.03, 0.1),
+            Measure::PlatePlace => AtMost(0.03, 0.1),
             Measure::StanceHeight => AtMost(0.02, 0.05),
             Measure::Jumps => AtMost(0.0, 10.0),
             Measure::FrozenPoints => AtMost(0.05, 0.25),
@@ -196,6 +200,10 @@ impl Measure {
                 "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
                  one"
             }
+            Measure::PlatePlace => {
+                "distance of the measured centres of pressure from the lines of the soles to the right or left, mean \
+                 of both feet"
+            }
             Measure::StanceHeight => {
                 "largest height of the sole in a stance above or below that of the other stances of the foot, in level \
                  walking"
@@ -233,6 +241,7 @@ impl Measure {
             | Measure::TrunkFit
             | Measure::Scaling
             | Measure::CenterOfPressure
+            | Measure::PlatePlace
             | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",

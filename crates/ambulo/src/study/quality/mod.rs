@@ -10,6 +10,7 @@
 //! Pinned by: tests/quality.rs
 
 mod measure;
+mod plate_place;
 pub(crate) mod stance_heights;
 
 use super::force_directions::{ForceDirections, is_used};
@@ -29,6 +30,7 @@ use crate::numerics::degrees;
 use crate::spatial::Vec3;
 #[doc(hidden)]
 pub use measure::{Measure, QualityLimits};
+pub(super) use plate_place::PlatePlace;
 use serde::{Deserialize, Serialize};
 pub(super) use stance_heights::StanceHeights;
 
@@ -152,6 +154,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) unmeasured_leg: Option<&'a UnmeasuredLeg>,
     pub(super) directions: &'a ForceDirections,
     pub(super) heights: StanceHeights,
+    /// Of measured forces.
+    pub(super) place: Option<PlatePlace>,
     /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
     pub(super) delay: Option<ForceDelay>,
     /// The clock of the motion, if it is wrong.
@@ -167,7 +171,7 @@ impl QualityEvidence<'_> {
         let of_body = [self.marker_fit(), self.trunk_fit(), self.scaling(), self.scale_factors(), self.mass()];
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff(), self.bandwidth()];
-        let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height()];
+        let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height(), self.plate_place()];
         let of_plates =
             [self.unchecked_forces(), self.unmeasured_leg(), self.unassigned_forces(), self.silent_plates()];
         let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
@@ -401,6 +405,10 @@ impl QualityEvidence<'_> {
                 worst.value, worst.at_s
             )
         })
+    }
+
+    fn plate_place(&self) -> Option<QualityReason> {
+        self.place?.reason()
     }
 
     /// The floor of a level walk has one height.
