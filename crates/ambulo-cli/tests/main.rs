@@ -14,6 +14,7 @@ mod workbench;
 
 mod bad_input;
 mod batch;
+mod conformance;
 mod consistent;
 mod exchange;
 mod failure;
