@@ -50,6 +50,7 @@ mod stream;
 mod stream_messages;
 mod stream_options;
 mod summary_schema;
+mod surface;
 mod sweep;
 mod trial_words;
 mod tune;

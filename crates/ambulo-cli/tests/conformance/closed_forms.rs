@@ -101,7 +101,14 @@ fn gyroscope() -> Files {
              <LinearFunction name=\"function\"><coefficients>1 0</coefficients></LinearFunction></TransformAxis>"
         )
     };
+    let fixed = |number: usize, axis: &str| {
+        format!(
+            "<TransformAxis name=\"translation{number}\"><coordinates></coordinates><axis>{axis}</axis>\
+             <Constant name=\"function\"><value>0</value></Constant></TransformAxis>"
+        )
+    };
     let axes = axis(1, "precession", "0 1 0") + &axis(2, "elevation", "0 0 1") + &axis(3, "spin", "1 0 0");
+    let axes = axes + &fixed(1, "1 0 0") + &fixed(2, "0 1 0") + &fixed(3, "0 0 1");
     let names = ["precession", "elevation", "spin"];
     let axes = format!("<SpatialTransform>{axes}</SpatialTransform>");
     let joints = joint("CustomJoint", "pivot", "ground", "0 0 0", "disc", &names, &axes);
