@@ -52,17 +52,25 @@ def long_rows(text: str, keys: list[str], sums: bool) -> Table:
     for row in csv.DictReader(text.splitlines()):
         if missing := [key for key in ["time", *keys] if key not in row]:
             raise Refused(f"there is no column `{missing[0]}`")
-        stem, time = "/".join(row[key] for key in keys), float(row["time"])
+        named = [row[key] for key in keys]
         for name, cell in row.items():
             if name in keys or name == "time" or not is_number(cell):
                 continue
-            values, times = table.setdefault(f"{stem}/{name}", []), table.setdefault(f"{stem}/{name}@", [])
-            if sums and times and abs(times[-1] - time) < SAME_INSTANT_S:
-                values[-1] += float(cell)
-            else:
-                values.append(float(cell))
-                times.append(time)
+            add(table, "/".join([*named, name]), float(row["time"]), float(cell), sums)
+            if sums:
+                # A force acts back on the other body.
+                add(table, "/".join([*named[::-1], name]), float(row["time"]), -float(cell), sums)
     return table
+
+
+def add(table: Table, name: str, time: float, value: float, sums: bool) -> None:
+    """Append a value to a column, or add it to the last one of the same instant."""
+    values, times = table.setdefault(name, []), table.setdefault(f"{name}@", [])
+    if sums and times and abs(times[-1] - time) < SAME_INSTANT_S:
+        values[-1] += value
+    else:
+        values.append(value)
+        times.append(time)
 
 
 def is_number(cell: str | None) -> bool:

@@ -175,7 +175,14 @@ fn read<'t>(file: usize, tokens: &[Token<'t>]) -> Read<'t> {
                 let owner = owners.iter().find(|(from, to, _)| *from < at && at < *to).map(|(_, _, owner)| *owner);
                 let head = [&tokens[at..end], &members(tokens, word, end)].concat();
                 let head = head.iter().map(|token| token.text).collect::<Vec<_>>().join(" ").replace("- >", "->");
-                read.items.push(Item { name: name.text, is_function: word == "fn", owner, file, line: name.line, head });
+                read.items.push(Item {
+                    name: name.text,
+                    is_function: word == "fn",
+                    owner,
+                    file,
+                    line: name.line,
+                    head,
+                });
             }
             _ => {}
         }
@@ -289,7 +296,11 @@ mod tests {
                         ambulo job: Job::run = pub fn run ( & self ) -> u8\n\
                         ambulo job: read = pub fn read ( text : & str )\n";
         assert_eq!(door(before), expected);
-        assert_eq!(door(&before.replace("{ 1 }", "{ 2 }").replace("own", "mine")), expected, "bodies and private names do not count");
+        assert_eq!(
+            door(&before.replace("{ 1 }", "{ 2 }").replace("own", "mine")),
+            expected,
+            "bodies and private names do not count"
+        );
         for (old, new) in [("&str", "&[u8]"), ("mass", "mass_kg"), ("pub mass", "mass"), ("-> u8", "-> u16")] {
             assert_ne!(door(&before.replace(old, new)), expected);
         }

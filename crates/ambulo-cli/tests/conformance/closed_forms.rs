@@ -48,7 +48,10 @@ fn pendulum() -> Files {
     let moment = |t: f64| about_pivot * swing.at(t)[2] + mass * G * length * sin(swing.at(t)[0]);
     let bodies = body("rod", mass, "0 -0.3 0", "0.06 0.001 0.06");
     let model = model_file("pendulum", &bodies, &pin("pivot", "ground", "0 0 0", "rod", "swing"));
-    ("inverse-dynamics/pendulum", dynamics_files(model, &[("swing", Signal::Wave(swing))], &[("swing_moment", &moment)]))
+    (
+        "inverse-dynamics/pendulum",
+        dynamics_files(model, &[("swing", Signal::Wave(swing))], &[("swing_moment", &moment)]),
+    )
 }
 
 /// Lagrange's equations of two rods; the second angle is relative to the first rod.
@@ -201,9 +204,8 @@ fn slope() -> Files {
 fn roll() -> Files {
     let (speed, deceleration) = (2.0, 0.2 * G);
     let rolls_from = 2.0 * speed / (7.0 * deceleration);
-    let way = move |t: f64| {
-        stopping(speed, deceleration, t.min(rolls_from)) + 5.0 / 7.0 * speed * (t - rolls_from).max(0.0)
-    };
+    let way =
+        move |t: f64| stopping(speed, deceleration, t.min(rolls_from)) + 5.0 / 7.0 * speed * (t - rolls_from).max(0.0);
     let spin = move |t: f64| -2.5 * deceleration / 0.05 * t.min(rolls_from);
     sampled("contact/roll", 0.05, 20, &[("ball/px", &way), ("ball/wz", &spin)])
 }
@@ -264,8 +266,7 @@ fn closed_loop() -> Files {
 fn landing() -> Files {
     let lands_at = (2.0 * 0.2 / G).sqrt();
     let way = move |t: f64| 2.0 * t.min(lands_at) + 5.0 / 7.0 * 2.0 * (t - lands_at).max(0.0);
-    let columns: [(&str, &dyn Fn(f64) -> f64); 2] =
-        [("ball/px", &way), ("ball/py", &|t| 0.1 + bouncing(0.2, 0.0, t))];
+    let columns: [(&str, &dyn Fn(f64) -> f64); 2] = [("ball/px", &way), ("ball/py", &|t| 0.1 + bouncing(0.2, 0.0, t))];
     sampled("paper/landing", 0.05, 16, &columns)
 }
 

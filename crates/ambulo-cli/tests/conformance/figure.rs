@@ -73,9 +73,8 @@ fn signal(name: &str, walk: &Table) -> Signal {
 /// Forces on the feet over 0.8 s at 100 Hz, and the table that has them.
 fn loads(model: &Model) -> (Vec<LoadSeries>, Vec<u8>) {
     let recorded = Table::read_storage(&demo_input("walk_grf.mot")).unwrap().0;
-    let digits = |name: &str| -> Vec<f64> {
-        recorded.column(name).unwrap()[..81].iter().map(|x| rounded(*x, 1e-6)).collect()
-    };
+    let digits =
+        |name: &str| -> Vec<f64> { recorded.column(name).unwrap()[..81].iter().map(|x| rounded(*x, 1e-6)).collect() };
     let columns = recorded.names().iter().filter(|name| *name != "time").map(|name| (name.clone(), digits(name)));
     let table = storage("loads", &seconds(0.0, 0.01, 81), columns.collect(), 1e-6);
     let side = |s: &str| {
