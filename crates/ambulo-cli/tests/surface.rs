@@ -1,7 +1,8 @@
 //! What version 0.1 promises, recorded in `docs/surface/`: a change needs a line of the CHANGELOG.
 //!
-//! The record has the commands with their options, the fields of requests, the keys of `summary.json`, the files with their columns, the codes of
-//! findings and the names of the Python package. `cargo xtask` records the Rust library (`house::surface`). With AMBULO_WRITE=1 the tests write.
+//! The record has the commands with their options, the fields of requests, the keys of `summary.json`, the files with
+//! their columns, the codes of findings and the names of the Python package. `cargo xtask` records the Rust library
+//! (`house::surface`). With AMBULO_WRITE=1 the tests write.
 
 use crate::workbench::{RAW, Workbench};
 use ambulo::findings::Code;

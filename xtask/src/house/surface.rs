@@ -273,7 +273,8 @@ mod tests {
         File { path: path.to_owned(), text: text.to_owned() }
     }
 
-    /// With AMBULO_WRITE=1 the record is written. `crates/ambulo-cli/tests/surface.rs` asks for a line of the CHANGELOG.
+    /// With AMBULO_WRITE=1 the record is written. `crates/ambulo-cli/tests/surface.rs` asks for a line of the
+    /// CHANGELOG.
     #[test]
     fn the_front_door_of_the_library_is_recorded() {
         let path = crate::workspace::root().join("docs/surface/rust.txt");
@@ -291,7 +292,8 @@ mod tests {
             let files = vec![file("lib.rs", "pub mod job;"), file("job/mod.rs", text)];
             front_door(&[Crate { name: "ambulo".to_owned(), files }])
         };
-        let before = "pub struct Job { #[serde] pub mass: Option<f64>, own: u8 } impl Job { pub fn run(&self) -> u8 { 1 } } fn own() {} pub fn read(text: &str) {}";
+        let before = "pub struct Job { #[serde] pub mass: Option<f64>, own: u8 } impl Job \
+            { pub fn run(&self) -> u8 { 1 } } fn own() {} pub fn read(text: &str) {}";
         let expected = "ambulo job: Job = pub struct Job pub mass : Option < f64 > ,\n\
                         ambulo job: Job::run = pub fn run ( & self ) -> u8\n\
                         ambulo job: read = pub fn read ( text : & str )\n";

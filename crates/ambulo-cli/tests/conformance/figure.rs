@@ -1,4 +1,5 @@
-//! Inverse dynamics of the built-in figure, from a walk with exact derivatives: in the air, and with forces on the feet.
+//! Inverse dynamics of the built-in figure, from a walk with exact derivatives: in the air, and with forces on the
+//! feet.
 
 use super::closed_forms::Files;
 use super::series::{Signal, Wave, column, motion_file, rounded, seconds, storage};

@@ -1,4 +1,5 @@
-//! The conformance suite (`conformance/`): its references are those of the formulas, `ambulo` passes it, and a spoiled output does not.
+//! The conformance suite (`conformance/`): its references are those of the formulas, `ambulo` passes it, and a spoiled
+//! output does not.
 //!
 //! With AMBULO_WRITE=1 the references are written.
 
