@@ -31,6 +31,14 @@ for (const kind of ["fence", "code_block"]) {
   markdown.renderer.rules[kind] = (...all) => usual.apply(null, all).replace("<pre", '<pre tabindex="0"');
 }
 
+// The policy allows no style in a page, so the side of a column is a class.
+for (const kind of ["th_open", "td_open"]) {
+  markdown.renderer.rules[kind] = (tokens, index) => {
+    const [tag, style] = [tokens[index].tag, tokens[index].attrGet("style") ?? ""];
+    return style === "text-align:right" ? `<${tag} class="right">` : `<${tag}>`;
+  };
+}
+
 const isOutside = (link) => /^[a-z][a-z+.-]*:/i.test(link);
 
 /** The address of a heading. */
@@ -205,7 +213,9 @@ function withTables(document, documents) {
     if (link?.type === "link_open" && inline.content.startsWith("[Table: ")) {
       const [file, heading] = link.attrGet("href").split("#");
       const from = documents.get(posix.normalize(posix.join(posix.dirname(document.path), file)));
-      const begin = from?.tokens.findIndex((one) => one.type === "heading_open" && one.attrGet("id") === heading) ?? -1;
+      const begin = from?.tokens.findIndex(
+        (one) => one.type === "heading_open" && (heading === undefined || one.attrGet("id") === heading),
+      ) ?? -1;
       const open = from?.tokens.findIndex((one, place) => place > begin && one.type === "table_open") ?? -1;
       const close = from?.tokens.findIndex((one, place) => place > open && one.type === "table_close") ?? -1;
       if (begin < 0 || open < 0) {
