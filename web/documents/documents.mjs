@@ -213,9 +213,10 @@ function withTables(document, documents) {
     if (link?.type === "link_open" && inline.content.startsWith("[Table: ")) {
       const [file, heading] = link.attrGet("href").split("#");
       const from = documents.get(posix.normalize(posix.join(posix.dirname(document.path), file)));
-      const begin = from?.tokens.findIndex(
-        (one) => one.type === "heading_open" && (heading === undefined || one.attrGet("id") === heading),
-      ) ?? -1;
+      const begin =
+        from?.tokens.findIndex(
+          (one) => one.type === "heading_open" && (heading === undefined || one.attrGet("id") === heading),
+        ) ?? -1;
       const open = from?.tokens.findIndex((one, place) => place > begin && one.type === "table_open") ?? -1;
       const close = from?.tokens.findIndex((one, place) => place > open && one.type === "table_close") ?? -1;
       if (begin < 0 || open < 0) {

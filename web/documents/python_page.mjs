@@ -66,7 +66,8 @@ export function pythonPage() {
     const members = (value.members ?? []).filter(({ name }) => name !== "__init__" || value.kind !== "class" || true);
     return [one(value, "", 2), ...members.map((member) => one(member, value.name, 3))].join("\n");
   });
-  const kinds = (kind) => names.filter((value) => (value.kind === "class") === kind).map(({ name }) => `[${name}](#${name.toLowerCase()})`);
+  const kinds = (kind) =>
+    names.filter((value) => (value.kind === "class") === kind).map(({ name }) => `[${name}](#${name.toLowerCase()})`);
   const lists = `**Functions**: ${kinds(false).join(" · ")}\n\n**Classes**: ${kinds(true).join(" · ")}`;
   return `# Python package: reference\n\n${markdownOf(doc)}\n\n[How to use it](docs/PYTHON.md). ${lists}\n\n${parts.join("\n")}`;
 }

@@ -45,7 +45,9 @@ function show(index) {
     }),
   );
   const more = found.length > MOST ? `, the first ${MOST} are shown` : "";
-  count.textContent = field.value.trim() === "" ? "" : `${found.length} parts of the documents have these words${more}.`;
+  const words = ["No part of the documents has", "One part of the documents has"][found.length];
+  const many = words ?? `${found.length} parts of the documents have`;
+  count.textContent = field.value.trim() === "" ? "" : `${many} these words${more}.`;
 }
 
 field.value = new URLSearchParams(location.search).get("q") ?? "";

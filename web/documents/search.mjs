@@ -52,14 +52,16 @@ export function searchIndex(documents) {
       words.set(word, [...(words.get(word) ?? []), [number, inHeading.has(word)]]);
     }
   });
-  const packed = [...words].sort(([a], [b]) => (a < b ? -1 : 1)).map(([word, found]) => {
-    let last = -1;
-    const numbers = found.map(([number, isHeading]) => {
-      const step = number - last;
-      last = number;
-      return isHeading ? -step : step;
+  const packed = [...words]
+    .sort(([a], [b]) => (a < b ? -1 : 1))
+    .map(([word, found]) => {
+      let last = -1;
+      const numbers = found.map(([number, isHeading]) => {
+        const step = number - last;
+        last = number;
+        return isHeading ? -step : step;
+      });
+      return [word, numbers];
     });
-    return [word, numbers];
-  });
   return JSON.stringify({ parts: parts.map(({ title, address }) => [title, address]), words: packed });
 }

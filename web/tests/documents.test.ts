@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { closeBrowser, newContext, type Page } from "../../viewer/e2e/page";
+import { type BrowserContextOptions, closeBrowser, newContext, type Page } from "../../viewer/e2e/page";
 import { obstacles } from "./obstacles";
 import { type Host, host } from "./site";
 
@@ -27,6 +27,19 @@ const OTHER_PARTS = ["index.html", "api/ambulo/index.html"].filter((name) => !ex
 
 after(closeBrowser);
 
+/** Opens a page of a new host of the site, passes both to `use`, and closes them. */
+async function onSite(options: BrowserContextOptions, use: (site: Host, page: Page) => Promise<void>): Promise<void> {
+  const site = await host(SITE);
+  const opened = await newContext(options);
+  opened.setDefaultTimeout(60_000);
+  try {
+    await use(site, await opened.newPage());
+  } finally {
+    await opened.close();
+    site.close();
+  }
+}
+
 /** Follows all links of the documents in the browser. Returns what leads nowhere, and how many addresses were visited. */
 async function walked(site: Host, page: Page, start: string): Promise<{ dead: string[]; visited: Set<string> }> {
   const dead: string[] = [];
@@ -41,18 +54,14 @@ async function walked(site: Host, page: Page, start: string): Promise<{ dead: st
       continue;
     }
     visited.add(place);
-    if (!place.startsWith(`${site.address}documents/`) || !place.endsWith(".html")) {
-      const answer = await page.request.get(place);
-      if (!answer.ok()) {
-        dead.push(`${from}: ${place}`);
-      }
-      continue;
-    }
-    const answer = await page.goto(place);
-    if (!answer?.ok()) {
+    if (!(await page.request.get(place)).ok()) {
       dead.push(`${from}: ${place}`);
       continue;
     }
+    if (!place.startsWith(`${site.address}documents/`) || !place.endsWith(".html")) {
+      continue;
+    }
+    await page.goto(place);
     const found = await page.evaluate(() => ({
       ids: Array.from(document.querySelectorAll("[id]"), ({ id }) => id),
       links: Array.from(document.querySelectorAll<HTMLAnchorElement>("a[href]"), ({ href }) => href),
@@ -77,70 +86,65 @@ async function walked(site: Host, page: Page, start: string): Promise<{ dead: st
 }
 
 test("every link of the documents leads to a page and its heading, and no page complains", async (context) => {
-  const site = await host(SITE);
-  const opened = await newContext({ viewport: PHONE });
-  const page = await opened.newPage();
-  const complaints: string[] = [];
-  page.on("pageerror", (error) => complaints.push(`${page.url()}: ${error}`));
-  page.on("console", (message) => complaints.push(`${page.url()}: ${message.text()}`));
-  const { dead, visited } = await walked(site, page, `${site.address}documents/docs/index.html`);
-  context.diagnostic(`${visited.size} pages, pictures and other files; not here: ${OTHER_PARTS.join(", ") || "none"}`);
-  assert.deepEqual(dead, []);
-  assert.deepEqual(complaints, []);
-  assert.ok(visited.size > 90, "the documents are reached");
-  // A link and a heading that are broken on the way are found.
-  await page.route("**/docs/index.html", async (route) => {
-    const answer = await route.fetch();
-    const body = (await answer.text()).replace("OPTIMAL.html", "NOWHERE.html").replace(/id="by-kind"/, 'id="by-sort"');
-    await route.fulfill({ response: answer, body: `${body}<a href="#by-kind">kind</a>` });
+  await onSite({ viewport: PHONE }, async (site, page) => {
+    const complaints: string[] = [];
+    page.on("pageerror", (error) => complaints.push(`${page.url()}: ${error}`));
+    page.on("console", (message) => complaints.push(`${page.url()}: ${message.text()}`));
+    const { dead, visited } = await walked(site, page, `${site.address}documents/docs/index.html`);
+    context.diagnostic(
+      `${visited.size} pages, pictures and other files; not here: ${OTHER_PARTS.join(", ") || "none"}`,
+    );
+    assert.deepEqual(dead, []);
+    assert.deepEqual(complaints, []);
+    assert.ok(visited.size > 90, "the documents are reached");
+    // A link and a heading that are broken on the way are found.
+    await page.route("**/docs/index.html", async (route) => {
+      const answer = await route.fetch();
+      const body = (await answer.text())
+        .replace("OPTIMAL.html", "NOWHERE.html")
+        .replace(/id="by-kind"/, 'id="by-sort"');
+      await route.fulfill({ response: answer, body: `${body}<a href="#by-kind">kind</a>` });
+    });
+    const broken = await walked(site, page, `${site.address}documents/docs/index.html`);
+    assert.ok(broken.dead.some((link) => link.endsWith("NOWHERE.html")));
+    assert.ok(broken.dead.some((link) => link.endsWith("#by-kind")));
   });
-  const broken = await walked(site, page, `${site.address}documents/docs/index.html`);
-  assert.ok(broken.dead.some((link) => link.endsWith("NOWHERE.html")));
-  assert.ok(broken.dead.some((link) => link.endsWith("#by-kind")));
-  await opened.close();
-  site.close();
 });
 
 test("the search finds the parts that have all words, from any page", async () => {
-  const site = await host(SITE);
-  const opened = await newContext({ viewport: DESKTOP });
-  const page = await opened.newPage();
-  await page.goto(`${site.address}documents/docs/measured/PEOPLE.html`);
-  await page.fill("header input", "knee adduction");
-  await page.press("header input", "Enter");
-  await page.waitForSelector("[data-ready] #found a");
-  assert.equal(await page.inputValue("#question"), "knee adduction");
-  const titles = await page.locator("#found a").allTextContents();
-  assert.ok(
-    titles.some((title) => title.includes("The load of a knee")),
-    titles.join("; "),
-  );
-  await page.fill("#question", "no such words at all");
-  assert.match((await page.textContent("#count")) ?? "", /^0 parts/);
-  await page.fill("#question", "markers.swap");
-  await page.locator("#found a").first().click();
-  assert.match(page.url(), /FINDINGS\.html/);
-  await opened.close();
-  site.close();
+  await onSite({ viewport: DESKTOP }, async (site, page) => {
+    await page.goto(`${site.address}documents/docs/measured/PEOPLE.html`);
+    await page.fill("header input", "knee adduction");
+    await page.press("header input", "Enter");
+    await page.waitForSelector("[data-ready] #found a");
+    assert.equal(await page.inputValue("#question"), "knee adduction");
+    const titles = await page.locator("#found a").allTextContents();
+    assert.ok(
+      titles.some((title) => title.includes("The load of a knee")),
+      titles.join("; "),
+    );
+    await page.fill("#question", "zweihundertvierzig");
+    assert.match((await page.textContent("#count")) ?? "", /^No part/);
+    await page.fill("#question", "markers.swap");
+    await page.locator("#found a").first().click();
+    assert.match(page.url(), /FINDINGS\.html/);
+  });
 });
 
 for (const colorScheme of ["light", "dark"] as const) {
   for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
     test(`documents, ${device}, ${colorScheme}: accessible, and not wider than the window`, async () => {
-      const site = await host(SITE);
-      const opened = await newContext({ viewport, colorScheme });
-      const page = await opened.newPage();
-      mkdirSync(SHOTS, { recursive: true });
-      const present = SHOWN.filter((name) => existsSync(join(SITE, `documents/${name}.html`)));
-      for (const name of present) {
-        await page.goto(`${site.address}documents/${name}.html`);
-        const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-        assert.ok(wide <= viewport.width, `${name} is ${wide} wide`);
-        await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}-${name.replace("/", "-")}.png`) });
-        assert.deepEqual(await obstacles(page), [], name);
-      }
-      await opened.close();
-      site.close();
+      await onSite({ viewport, colorScheme }, async (site, page) => {
+        mkdirSync(SHOTS, { recursive: true });
+        const present = SHOWN.filter((name) => existsSync(join(SITE, `documents/${name}.html`)));
+        for (const name of present) {
+          await page.goto(`${site.address}documents/${name}.html`);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+          assert.ok(wide <= viewport.width, `${name} is ${wide} wide`);
+          await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}-${name.replace("/", "-")}.png`) });
+          assert.deepEqual(await obstacles(page), [], name);
+        }
+      });
     });
   }
 }

@@ -33,8 +33,12 @@ await build({
   sourcemap: "inline",
 });
 const pattern = only ? ["--test-name-pattern", only] : [];
-const run = spawnSync(process.execPath, ["--test", "--test-reporter=spec", ...pattern, ...tests.map((name) => join(out, `${name}.test.mjs`))], {
-  stdio: "inherit",
-  env: { ...process.env, SITE: resolve(site), SHOTS: process.env.SHOTS ?? join(out, "shots") },
-});
+const run = spawnSync(
+  process.execPath,
+  ["--test", "--test-reporter=spec", ...pattern, ...tests.map((name) => join(out, `${name}.test.mjs`))],
+  {
+    stdio: "inherit",
+    env: { ...process.env, SITE: resolve(site), SHOTS: process.env.SHOTS ?? join(out, "shots") },
+  },
+);
 process.exitCode = run.status ?? 1;

@@ -80,15 +80,17 @@ fn measure() -> Result<(), String> {
         fs::remove_dir_all(&wheels).map_err(|e| format!("{}: {e}", wheels.display()))?;
     }
     let folder = wheels.display().to_string();
-    let smallest = ["--compression-level", "9"];
-    environment
-        .python(&package, &[&["-m", "maturin", "build", "--locked", "--out", &folder][..], &smallest].concat())?;
+    let map = workspace::target().join("python/module.map").display().to_string();
+    let linked = format!("link-arg=-Wl,-Map={map}");
+    let build = ["-m", "maturin", "build", "--locked", "--out", &folder, "--compression-level", "9"];
+    environment.python(&package, &[&build[..], &["--", "-C", &linked]].concat())?;
     let found = fs::read_dir(&wheels).ok().and_then(|mut files| files.next()?.ok());
     let wheel = found.ok_or_else(|| format!("{}: maturin has made no wheel", wheels.display()))?.path();
     let wheel = wheel.display().to_string();
-    let [smaller, versions] = ["smallest_wheel.py", "requirements.txt"].map(packaging);
+    let [smaller, sizes, versions] = ["smallest_wheel.py", "module_sizes.py", "requirements.txt"].map(packaging);
     environment.install(&["--constraint", &versions, "zopfli"])?;
     environment.python(&package, &[&smaller, &wheel])?;
+    environment.python(&package, &[&sizes, &wheel, &map])?;
     environment.install(&["--force-reinstall", "--no-deps", &wheel])?;
     environment.install(&["numpy"])?;
     environment.python(&package, &["bench/measure.py", &wheel])

@@ -84,7 +84,8 @@ struct Item<'t> {
     owner: Option<&'t str>,
     file: usize,
     line: usize,
-    /// The declaration up to its body, in one line.
+    /// The declaration with what users reach in its body, in one line.
+    #[cfg(test)]
     head: String,
 }
 
@@ -173,15 +174,14 @@ fn read<'t>(file: usize, tokens: &[Token<'t>]) -> Read<'t> {
             "mod" => _ = read.children.insert(name.text),
             word @ ("fn" | "struct" | "enum" | "trait" | "union") => {
                 let owner = owners.iter().find(|(from, to, _)| *from < at && at < *to).map(|(_, _, owner)| *owner);
-                let head = [&tokens[at..end], &members(tokens, word, end)].concat();
-                let head = head.iter().map(|token| token.text).collect::<Vec<_>>().join(" ").replace("- >", "->");
                 read.items.push(Item {
                     name: name.text,
                     is_function: word == "fn",
                     owner,
                     file,
                     line: name.line,
-                    head,
+                    #[cfg(test)]
+                    head: declaration(&tokens[at..end], &members(tokens, word, end)),
                 });
             }
             _ => {}
@@ -190,7 +190,15 @@ fn read<'t>(file: usize, tokens: &[Token<'t>]) -> Read<'t> {
     read
 }
 
+/// A head and what users reach in the body, in one line.
+#[cfg(test)]
+fn declaration(head: &[Token<'_>], members: &[Token<'_>]) -> String {
+    let words: Vec<&str> = head.iter().chain(members).map(|token| token.text).collect();
+    words.join(" ").replace("- >", "->")
+}
+
 /// What users reach in the body at `open`: public fields of a structure, variants of an enum.
+#[cfg(test)]
 fn members<'t>(tokens: &[Token<'t>], word: &str, open: usize) -> Vec<Token<'t>> {
     if !["struct", "enum"].contains(&word) || !tokens.get(open).is_some_and(|token| token.is("{")) {
         return Vec::new();
