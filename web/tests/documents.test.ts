@@ -111,7 +111,7 @@ test("every link of the documents leads to a page and its heading, and no page c
   });
 });
 
-test("the search finds the parts that have all words, from any page", async () => {
+test("the search of the documents finds the parts that have all words, from any page", async () => {
   await onSite({ viewport: DESKTOP }, async (site, page) => {
     await page.goto(`${site.address}documents/docs/measured/PEOPLE.html`);
     await page.fill("header input", "knee adduction");
