@@ -40,12 +40,38 @@ function markdownOf(doc) {
     if (isTitle) {
       out.push("", `**${line.trim()}**`, "");
     } else if (!isCode && parameter) {
-      out.push("", `- \`${parameter[1]}\` : ${parameter[2]}`);
+      out.push("", `- \`${parameter[1]}\` (${parameter[2]}):`);
     } else {
       out.push(isCode ? line : line.replaceAll("``", "`"));
     }
   });
   return [...out, ...(isCode ? ["```"] : [])].join("\n");
+}
+
+/** Where the list of arguments ends. */
+function end(signature) {
+  let depth = 0;
+  return (
+    [...signature].findIndex((letter) => {
+      depth += { "(": 1, "[": 1, ")": -1, "]": -1 }[letter] ?? 0;
+      return depth === 0;
+    }) + 1
+  );
+}
+
+/** The arguments of a signature. */
+function inside(signature) {
+  const parts = [""];
+  let depth = 0;
+  for (const letter of signature.slice(1, end(signature) - 1)) {
+    depth += { "(": 1, "[": 1, ")": -1, "]": -1 }[letter] ?? 0;
+    if (letter === "," && depth === 0) {
+      parts.push("");
+    } else {
+      parts.push(parts.pop() + letter);
+    }
+  }
+  return parts.map((part) => part.trim());
 }
 
 function heading(level, owner, { name, kind, signature }) {
@@ -54,7 +80,9 @@ function heading(level, owner, { name, kind, signature }) {
   // A long signature has a line per argument.
   const call = name === "__init__" ? owner : name;
   const long = signature.length > 90 && kind !== "attribute";
-  const shown = long ? signature.replace(/, (?=[*\w]+(:|=|,|\)))/g, ",\n    ").replace(/^\(/, "(\n    ") : signature;
+  const shown = long
+    ? `(${inside(signature).map((part) => `\n    ${part}`)}\n)${signature.slice(end(signature))}`
+    : signature;
   return `${"#".repeat(level)} ${title}\n\n\`\`\`python\n${word}${call}${shown}\n\`\`\`\n`;
 }
 
@@ -63,8 +91,7 @@ export function pythonPage() {
   const { doc, names } = read();
   const one = (value, owner, level) => `${heading(level, owner, value)}\n${markdownOf(value.doc)}\n`;
   const parts = names.map((value) => {
-    const members = (value.members ?? []).filter(({ name }) => name !== "__init__" || value.kind !== "class" || true);
-    return [one(value, "", 2), ...members.map((member) => one(member, value.name, 3))].join("\n");
+    return [one(value, "", 2), ...(value.members ?? []).map((member) => one(member, value.name, 3))].join("\n");
   });
   const kinds = (kind) =>
     names.filter((value) => (value.kind === "class") === kind).map(({ name }) => `[${name}](#${name.toLowerCase()})`);
