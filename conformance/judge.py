@@ -1,7 +1,8 @@
 """Compare the output of any program with the references: `python conformance/judge.py OUTPUT [CASE..]`.
 
-OUTPUT has one folder per case, named as in `cases.json`, with a result file of a name that the case lists. A missing file, column or row is a miss.
-Needs Python 3.10 or later and nothing else. Exit code 0 if all cases agree, 1 if one does not, 2 if nothing could be compared.
+OUTPUT has one folder per case, named as in `cases.json`, with a result file of a name that the case lists. A missing
+file, column or row is a miss. Needs Python 3.10 or later and nothing else. Exit code 0 if all cases agree, 1 if one
+does not, 2 if nothing could be compared.
 """
 
 from __future__ import annotations
@@ -47,7 +48,10 @@ def columns(names: list[str], rows: list[list[str]]) -> Table:
 
 
 def long_rows(text: str, keys: list[str], sums: bool) -> Table:
-    """Read a CSV with rows per thing: the column `vx` of the body `ball` becomes `ball/vx`. Rows of one instant may add up."""
+    """Read a CSV with rows per thing: the column `vx` of the body `ball` becomes `ball/vx`.
+
+    Rows of one instant may add up.
+    """
     table: Table = {}
     for row in csv.DictReader(text.splitlines()):
         if missing := [key for key in ["time", *keys] if key not in row]:
@@ -150,13 +154,15 @@ def judge(case: dict, output: Path) -> tuple[bool, str]:
 
 def main(arguments: list[str]) -> int:
     if not arguments or not Path(arguments[0]).is_dir():
-        print("usage: python conformance/judge.py OUTPUT [CASE..]\nOUTPUT is a folder with one folder per case", file=sys.stderr)
+        usage = "usage: python conformance/judge.py OUTPUT [CASE..]\nOUTPUT is a folder with one folder per case"
+        print(usage, file=sys.stderr)
         return 2
     cases = json.loads((HERE / "cases.json").read_text("utf-8"))["cases"]
     chosen = [case for case in cases if not arguments[1:] or case["name"] in arguments[1:]]
     unknown = set(arguments[1:]) - {case["name"] for case in cases}
     if unknown:
-        print(f"no case is named {', '.join(sorted(unknown))}; there are {', '.join(c['name'] for c in cases)}", file=sys.stderr)
+        known = ", ".join(case["name"] for case in cases)
+        print(f"no case is named {', '.join(sorted(unknown))}; there are {known}", file=sys.stderr)
         return 2
     results = [(case["name"], *judge(case, Path(arguments[0]))) for case in chosen]
     width = max(len(name) for name, _, _ in results)

@@ -1,4 +1,7 @@
-"""Run OpenSim's inverse dynamics on the cases: `python conformance/opensim_results.py OUTPUT`, with the package `opensim`."""
+"""Run OpenSim's inverse dynamics on the cases: `python conformance/opensim_results.py OUTPUT`.
+
+Needs the package `opensim`.
+"""
 
 from __future__ import annotations
 

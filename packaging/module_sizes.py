@@ -1,8 +1,8 @@
 """Print what a wheel consists of, by part and crate: `python packaging/module_sizes.py WHEEL MAP`.
 
-MAP is the map that lld writes while it links the module (`-Map`). It names every function with its size, also those of a module without symbols. A generic
-function of the standard library for a type of a crate counts for that crate. Constants have no names there; the files that the crates contain are
-listed by their sizes in the sources.
+MAP is the map that lld writes while it links the module (`-Map`). It names every function with its size, also those of
+a module without symbols. A generic function of the standard library for a type of a crate counts for that crate.
+Constants have no names there; the files that the crates contain are listed by their sizes in the sources.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-STANDARD = {"core", "alloc", "std", "hashbrown", "compiler_builtins", "rustc_demangle", "gimli", "addr2line", "object", "miniz_oxide"}
+STANDARD = {"core", "alloc", "std", "hashbrown", "compiler_builtins", "rustc_demangle"}
+STANDARD |= {"gimli", "addr2line", "object", "miniz_oxide"}  # traces of errors
 PURPOSES = {
     "ambulo": "from recordings to forces",
     "ambulo_body": "body, motion, kinematics, contact, dynamics",
@@ -40,9 +41,17 @@ PURPOSES = {
 }
 TABLES = [
     ("code", "machine code", [".text", ".init", ".fini", ".plt"]),
-    ("unwinding", "lets an error inside become an exception of Python", [".eh_frame", ".eh_frame_hdr", ".gcc_except_table"]),
+    (
+        "unwinding",
+        "lets an error inside become an exception of Python",
+        [".eh_frame", ".eh_frame_hdr", ".gcc_except_table"],
+    ),
     ("constants", "texts, tables of numbers, files below", [".rodata"]),
-    ("places", "addresses that the loader fills in", [".rela.dyn", ".rela.plt", ".data.rel.ro", ".got", ".got.plt", ".data", ".relro_padding"]),
+    (
+        "places",
+        "addresses that the loader fills in",
+        [".rela.dyn", ".rela.plt", ".data.rel.ro", ".got", ".got.plt", ".data", ".relro_padding"],
+    ),
 ]
 LINE = re.compile(r" *[0-9a-f]+ +[0-9a-f]+ +([0-9a-f]+) +\d+ ( *)(\S.*)")
 
@@ -50,7 +59,8 @@ LINE = re.compile(r" *[0-9a-f]+ +[0-9a-f]+ +([0-9a-f]+) +\d+ ( *)(\S.*)")
 def crate_of(symbol: str) -> str:
     """The crate for which a mangled function was made."""
     if symbol.startswith("_R"):
-        names = [name[: int(length)] for length, name in re.findall(r"C(?:s[0-9a-zA-Z]*_)?(\d+)_?([a-zA-Z0-9_]+)", symbol)]
+        roots = re.findall(r"C(?:s[0-9a-zA-Z]*_)?(\d+)_?([a-zA-Z0-9_]+)", symbol)
+        names = [name[: int(length)] for length, name in roots]
     else:
         path = []
         rest = symbol.removeprefix("_ZN")
@@ -120,7 +130,8 @@ def main(wheel: Path, link_map: Path) -> None:
         named += size
         print(f"  {size:>9}  {name}: {purpose}")
     hidden = [".bss", ".tbss", ".comment", ".shstrtab", ".symtab", ".strtab"]
-    print(f"  {sum(size for part, size in sections.items() if part not in hidden and not part.startswith('.debug')) - named:>9}  other sections")
+    kept = [size for part, size in sections.items() if part not in hidden and not part.startswith(".debug")]
+    print(f"  {sum(kept) - named:>9}  other sections")
     print("\nCode by crate:")
     for name, size in code.most_common(25):
         print(f"  {size:>9}  {name}{': ' + PURPOSES[name] if name in PURPOSES else ''}")

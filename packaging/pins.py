@@ -1,6 +1,7 @@
-"""Compare the commits of the actions in the workflows with their tags: `python packaging/pins.py`. Needs git and a connection to GitHub.
+"""Compare the commits of the actions in the workflows with their tags: `python packaging/pins.py`.
 
-Each line `uses: OWNER/NAME@COMMIT # vTAG` must name the commit to which the tag leads today. Exit code 1 if one does not.
+Each line `uses: OWNER/NAME@COMMIT # vTAG` must name the commit to which the tag leads today. Needs git and a
+connection to GitHub. Exit code 1 if one does not.
 """
 
 from __future__ import annotations

@@ -1,9 +1,11 @@
-// Makes the pages of the documents: README.md, docs/, and everything that they link to. A link that leads nowhere is an error.
+// Makes the pages of the documents: README.md, docs/, and everything that they link to. A link that leads nowhere is an
+// error.
 //
-// Pages have the places of their files, with the ending .html; README.html is index.html. Folders become one page with all of their files; other files are
-// copied. The addresses of headings are those of GitHub, so that a link works there and here. A paragraph that is only a link `[Table: ..](file#heading)`
-// shows the first table of that part above the link, so that no number is copied. Further pages are the search, the reference of the Python package and
-// the gallery, if its pictures were made (gallery.mjs).
+// Pages have the places of their files, with the ending .html; README.html is index.html. Folders become one page with
+// all of their files; other files are copied. The addresses of headings are those of GitHub, so that a link works there
+// and here. A paragraph that is only a link `[Table: ..](file#heading)` shows the first table of that part above the
+// link, so that no number is copied. Further pages are the search, the reference of the Python package and the gallery,
+// if its pictures were made (gallery.mjs).
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, extname, join, posix } from "node:path";
@@ -100,7 +102,10 @@ function read(path, text = readFileSync(join(root, path), "utf8")) {
   return { path, tokens, ids, headings };
 }
 
-/** The documents that are reached from the first ones and from all of docs/, and the other files and folders that they link to. */
+/**
+ * The documents that are reached from the first ones and from all of docs/, and the other files and folders that they
+ * link to.
+ */
 export function collect() {
   const documents = new Map();
   const others = new Set();

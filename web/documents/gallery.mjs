@@ -1,4 +1,5 @@
-// The gallery: scenes and figures, each drawn by the command that is printed below it. `ambulo` computes them, and Chromium draws the figures in 3-D.
+// The gallery: scenes and figures, each drawn by the command that is printed below it. `ambulo` computes them, and
+// Chromium draws the figures in 3-D.
 import { spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";

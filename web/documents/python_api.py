@@ -1,7 +1,8 @@
 """Print the public names of the Python package as JSON: `python web/documents/python_api.py`.
 
-The sources are read, not run: functions and classes that `ambulo.__all__` lists, with signature and documentation, and the public methods and
-attributes of the classes. The reference page (documents.mjs) and the record of the surface (docs/surface/python.txt) are made from it.
+The sources are read, not run: functions and classes that `ambulo.__all__` lists, with signature and documentation, and
+the public methods and attributes of the classes. The reference page (documents.mjs) and the record of the surface
+(docs/surface/python.txt) are made from it.
 """
 
 from __future__ import annotations
@@ -63,9 +64,10 @@ def described(name: str, node: Definition) -> dict:
         if isinstance(part, ast.FunctionDef | ast.AsyncFunctionDef) and "overload" not in marks(part):
             if part.name == "__init__" or not part.name.startswith("_"):
                 members.append(described(part.name, part))
-        elif isinstance(part, ast.AnnAssign) and isinstance(part.target, ast.Name) and not part.target.id.startswith("_"):
+        elif isinstance(part, ast.AnnAssign) and isinstance(part.target, ast.Name):
             text = f": {ast.unparse(part.annotation)}"
-            members.append({"name": part.target.id, "kind": "attribute", "signature": text, "doc": ""})
+            if not part.target.id.startswith("_"):
+                members.append({"name": part.target.id, "kind": "attribute", "signature": text, "doc": ""})
     bases = ", ".join(ast.unparse(base) for base in node.bases)
     return {"name": name, "kind": "class", "signature": f"({bases})" if bases else "", "doc": doc, "members": members}
 

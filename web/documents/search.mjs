@@ -1,9 +1,12 @@
 // The index of the documents for the search page: which words are in which part of which document.
 //
-// A part is a heading with the text below it. `parts` has title and address of each; `words` has, for every word, the numbers of its parts, each as the
-// distance from the one before. A word in a heading counts more: its number is negative.
+// A part is a heading with the text below it. `parts` has title and address of each; `words` has, for every word, the
+// numbers of its parts, each as the distance from the one before. A word in a heading counts more: its number is
+// negative.
 
-/** Words of a text in small letters: letters and digits, joined by `_`, `.` and `-` as in names of options and files. */
+/**
+ * Words of a text in small letters: letters and digits, joined by `_`, `.` and `-` as in names of options and files.
+ */
 export function wordsOf(text) {
   return text.toLowerCase().match(/[\p{L}\p{N}]+(?:[_.-][\p{L}\p{N}]+)*/gu) ?? [];
 }

@@ -1,4 +1,5 @@
-// The documents alone, without the page that computes: `node web/documents/site.mjs FOLDER`; AMBULO names the program that draws the gallery.
+// The documents alone, without the page that computes: `node web/documents/site.mjs FOLDER`; AMBULO names the program
+// that draws the gallery.
 import { mkdirSync, rmSync } from "node:fs";
 import { writeDocuments } from "./documents.mjs";
 import { drawGallery } from "./gallery.mjs";

@@ -40,7 +40,9 @@ async function onSite(options: BrowserContextOptions, use: (site: Host, page: Pa
   }
 }
 
-/** Follows all links of the documents in the browser. Returns what leads nowhere, and how many addresses were visited. */
+/**
+ * Follows all links of the documents in the browser. Returns what leads nowhere, and how many addresses were visited.
+ */
 async function walked(site: Host, page: Page, start: string): Promise<{ dead: string[]; visited: Set<string> }> {
   const dead: string[] = [];
   const visited = new Set<string>();
