@@ -1,5 +1,5 @@
 // Builds the page and the documents into a folder that any static host can serve: `node web/build.mjs PROGRAM.wasm FOLDER [API]`. API is the folder
-// of cargo's documentation, which becomes part of it. The tools are those of viewer/.
+// of cargo's documentation, which becomes part of it, with a gallery if AMBULO names the program that draws it. The tools are those of viewer/.
 //
 // Every file but three has a hash of its content in its name, so a browser never mixes two versions: index.html, the manifest and the
 // service worker keep theirs.
@@ -10,6 +10,7 @@ import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { writeDocuments } from "./documents/documents.mjs";
+import { drawGallery } from "./documents/gallery.mjs";
 import { colours, REPORT } from "./style.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -115,5 +116,6 @@ process.stdout.write(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)
 if (api) {
   cpSync(api, join(folder, "api"), { recursive: true });
 }
-const documents = writeDocuments(join(folder, "documents"), api !== undefined);
+const gallery = process.env.AMBULO ? await drawGallery(process.env.AMBULO, join(folder, "documents")) : undefined;
+const documents = writeDocuments(join(folder, "documents"), { api: api !== undefined, gallery });
 process.stdout.write(`${join(folder, "documents")}: ${documents} files\n`);

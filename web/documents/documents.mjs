@@ -1,19 +1,28 @@
-// Makes the pages of the documents: README.md, docs/, and everything that they link to. A link that leads nowhere is an error.
+// Makes the pages of the documents: README.md, docs/, and everything that they link to. A link that leads nowhere is an
+// error.
 //
-// Pages have the places of their files, with the ending .html; README.html is index.html. Folders become one page with all of their files; other files are
-// copied. The addresses of headings are those of GitHub, so that a link works there and here.
+// Pages have the places of their files, with the ending .html; README.html is index.html. Folders become one page with
+// all of their files; other files are copied. The addresses of headings are those of GitHub, so that a link works there
+// and here. A paragraph that is only a link `[Table: ..](file#heading)` shows the first table of that part above the
+// link, so that no number is copied. Further pages are the search, the reference of the Python package and the gallery,
+// if its pictures were made (gallery.mjs).
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, extname, join, posix } from "node:path";
 import { fileURLToPath } from "node:url";
 import { colours } from "../style.mjs";
+import { pythonPage } from "./python_page.mjs";
+import { searchIndex } from "./search.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, "../..");
 const MarkdownIt = createRequire(join(root, "viewer/package.json"))("markdown-it");
-const FIRST = ["README.md", "docs/README.md"];
-/** What the page may load. */
-const POLICY = "default-src 'none'; style-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'none'";
+const FIRST = ["README.md", "CHANGELOG.md", "docs/README.md"];
+/** What a page may load. */
+const POLICY = "default-src 'none'; style-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'";
+/** The search page has a script and an index. */
+const SEARCH_POLICY = `${POLICY}; script-src 'self'; connect-src 'self'`;
+const [, VERSION] = /^version = "(.+)"$/m.exec(readFileSync(join(root, "Cargo.toml"), "utf8"));
 
 const markdown = new MarkdownIt({ html: false });
 markdown.renderer.rules.table_open = () => '<div class="table" tabindex="0"><table>\n';
@@ -22,6 +31,14 @@ markdown.renderer.rules.table_close = () => "</table></div>\n";
 for (const kind of ["fence", "code_block"]) {
   const usual = markdown.renderer.rules[kind];
   markdown.renderer.rules[kind] = (...all) => usual.apply(null, all).replace("<pre", '<pre tabindex="0"');
+}
+
+// The policy allows no style in a page, so the side of a column is a class.
+for (const kind of ["th_open", "td_open"]) {
+  markdown.renderer.rules[kind] = (tokens, index) => {
+    const [tag, style] = [tokens[index].tag, tokens[index].attrGet("style") ?? ""];
+    return style === "text-align:right" ? `<${tag} class="right">` : `<${tag}>`;
+  };
 }
 
 const isOutside = (link) => /^[a-z][a-z+.-]*:/i.test(link);
@@ -64,8 +81,8 @@ function* linksIn(tokens) {
 }
 
 /** A document before its links are made. */
-function read(path) {
-  const tokens = markdown.parse(readFileSync(join(root, path), "utf8"), {});
+function read(path, text = readFileSync(join(root, path), "utf8")) {
+  const tokens = markdown.parse(text, {});
   const ids = new Set();
   const headings = [];
   tokens.forEach((token, index) => {
@@ -85,7 +102,10 @@ function read(path) {
   return { path, tokens, ids, headings };
 }
 
-/** The documents that are reached from the first ones and from all of docs/, and the other files and folders that they link to. */
+/**
+ * The documents that are reached from the first ones and from all of docs/, and the other files and folders that they
+ * link to.
+ */
 export function collect() {
   const documents = new Map();
   const others = new Set();
@@ -141,14 +161,22 @@ function address(link, document, documents, dead) {
 const escaped = (text) => markdown.utils.escapeHtml(text);
 
 /** A page; `place` is its file. */
-function page(place, title, content, hasApi) {
+function page(place, title, content, has, policy = POLICY) {
   const up = posix.relative(posix.dirname(place), ".") || ".";
-  const api = hasApi ? `<a href="${up}/../api/ambulo/index.html">API</a>` : "";
+  const links = [
+    ["index.html", "Ambulo"],
+    ["docs/index.html", "Documents"],
+    ...(has.gallery ? [["gallery.html", "Gallery"]] : []),
+    ["docs/BENCHMARKS.html", "Benchmarks"],
+    ["python.html", "Python"],
+    ...(has.api ? [["../api/ambulo/index.html", "Rust"]] : []),
+    ["../index.html", "Compute in the browser"],
+  ].map(([to, name]) => `<a href="${up}/${to}">${name}</a>`);
   return `<!doctype html>
 <html lang="en">
   <head>
     <meta charset="utf-8" />
-    <meta http-equiv="Content-Security-Policy" content="${POLICY}" />
+    <meta http-equiv="Content-Security-Policy" content="${policy}" />
     <meta name="viewport" content="width=device-width, initial-scale=1" />
     <meta name="color-scheme" content="light dark" />
     <title>${escaped(title)} - Ambulo</title>
@@ -158,11 +186,14 @@ function page(place, title, content, hasApi) {
   <body>
     <a class="skip" href="#content">Skip to the content</a>
     <header>
-      <nav aria-label="Site"><a href="${up}/index.html">Ambulo</a> <a href="${up}/docs/index.html">Documents</a> ${api} <a href="${up}/../index.html">Compute in the browser</a></nav>
+      <nav aria-label="Site">${links.join(" ")}
+        <form action="${up}/search.html" role="search"><input type="search" name="q" aria-label="Search the documents" placeholder="Search" /></form>
+      </nav>
     </header>
     <main id="content" tabindex="-1">
 ${content}
     </main>
+    <footer>Ambulo ${VERSION} · <a href="${up}/CHANGELOG.html">changes</a> · <a href="${up}/docs/RELEASES.html">what is stable</a></footer>
   </body>
 </html>
 `;
@@ -178,7 +209,33 @@ function contents({ headings }) {
   return `<details><summary>On this page</summary><ul>${items.join("")}</ul></details>\n`;
 }
 
+/** Puts the tables that a document only links to above their links. */
+function withTables(document, documents) {
+  const tokens = [];
+  document.tokens.forEach((token, index) => {
+    const inline = document.tokens[index + 1];
+    const link = token.type === "paragraph_open" && inline?.children?.length === 3 ? inline.children[0] : undefined;
+    if (link?.type === "link_open" && inline.content.startsWith("[Table: ")) {
+      const [file, heading] = link.attrGet("href").split("#");
+      const from = documents.get(posix.normalize(posix.join(posix.dirname(document.path), file)));
+      const begin =
+        from?.tokens.findIndex(
+          (one) => one.type === "heading_open" && (heading === undefined || one.attrGet("id") === heading),
+        ) ?? -1;
+      const open = from?.tokens.findIndex((one, place) => place > begin && one.type === "table_open") ?? -1;
+      const close = from?.tokens.findIndex((one, place) => place > open && one.type === "table_close") ?? -1;
+      if (begin < 0 || open < 0) {
+        throw new Error(`${document.path}: ${link.attrGet("href")} has no table`);
+      }
+      tokens.push(...from.tokens.slice(open, close + 1));
+    }
+    tokens.push(token);
+  });
+  return tokens;
+}
+
 function rendered(document, documents, dead) {
+  document.tokens = withTables(document, documents);
   for (const [token, attribute] of linksIn(document.tokens)) {
     token.attrSet(attribute, address(token.attrGet(attribute), document, documents, dead));
   }
@@ -197,19 +254,35 @@ function folderPage(path) {
   return `<h1>${escaped(path)}</h1>\n${parts.join("\n")}`;
 }
 
-/** Writes the pages into a folder; returns how many files it has. */
-export function writeDocuments(folder, hasApi) {
+/** The search page; the form asks it, and its script answers. */
+const SEARCH = `<h1>Search</h1>
+<p><input type="search" id="question" aria-label="Words" /></p>
+<p id="count" role="status"></p>
+<ol id="found"></ol>
+<noscript><p>The search needs scripts. <a href="docs/index.html">All documents by reader and by kind</a> work without.</p></noscript>
+<script src="search.js"></script>`;
+
+/** Writes the pages into a folder; returns how many files it has. `has` tells which other parts the site has. */
+export function writeDocuments(folder, has) {
   const { documents, others, dead } = collect();
+  const python = read("python.md", pythonPage());
+  const all = [...documents.values(), python];
   const files = new Map();
-  for (const document of documents.values()) {
+  files.set("search-index.json", searchIndex(all.map((document) => [document, placeOf(document.path)])));
+  files.set("search.js", readFileSync(join(here, "search.js"), "utf8"));
+  files.set("search.html", page("search.html", "Search", SEARCH, has, SEARCH_POLICY));
+  if (has.gallery) {
+    files.set("gallery.html", page("gallery.html", "Gallery", has.gallery, has));
+  }
+  for (const document of all) {
     const place = placeOf(document.path);
     const title = document.headings[0]?.text ?? document.path;
-    files.set(place, page(place, title, rendered(document, documents, dead), hasApi));
+    files.set(place, page(place, title, rendered(document, documents, dead), has));
   }
   for (const path of others) {
     const place = placeOf(path);
     if (statSync(join(root, path)).isDirectory()) {
-      files.set(place, page(place, path, folderPage(path), hasApi));
+      files.set(place, page(place, path, folderPage(path), has));
     } else {
       mkdirSync(dirname(join(folder, place)), { recursive: true });
       cpSync(join(root, path), join(folder, place));

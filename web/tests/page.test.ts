@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, type TestContext, test } from "node:test";
@@ -8,13 +7,13 @@ import { fileURLToPath } from "node:url";
 import { closeBrowser, IN_FIREFOX, type Page } from "../../viewer/e2e/page";
 import { readSolved } from "../family/solved";
 import { POINTS, QUANTITIES, type Values, Walks } from "../src/family";
+import { obstacles } from "./obstacles";
 import { comparable, difference, native } from "./results";
 import { compute, host, saved, shown, visit } from "./site";
 import { unzip } from "./unit/archive";
 
 // The tests are compiled to viewer/out/web.
 const REPOSITORY = fileURLToPath(new URL("../../..", import.meta.url));
-const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const RECORDING = join(REPOSITORY, "crates/ambulo-cli/tests/recording");
 const FAMILY = join(REPOSITORY, "web/family/walks.json");
 const CHILDREN = join(process.env["AMBULO_DATA"] ?? join(REPOSITORY, "../shared"), "data/biomechzoo-HC032A");
@@ -465,68 +464,11 @@ test("a file name is text, never markup", async () => {
   });
 });
 
-/** Links and pictures of a page that lead nowhere; `known` has the pages by address, and those that are found are added. */
-async function deadLinks(address: string, known: Map<string, string>): Promise<string[]> {
-  const load = async (place: string): Promise<string | undefined> => {
-    const answer = known.has(place) ? undefined : await fetch(place);
-    if (answer?.ok) {
-      known.set(place, place.endsWith(".html") ? await answer.text() : "");
-    }
-    return known.get(place);
-  };
-  const html = (await load(address)) ?? "";
-  const links = [...html.matchAll(/ (?:href|src)="([^"]*)"/g)].map(([, link]) => new URL(link ?? "", address));
-  const dead: string[] = [];
-  for (const link of links.filter(({ origin }) => origin === new URL(address).origin)) {
-    const place = `${link.origin}${link.pathname}`;
-    const isNew = !known.has(place);
-    const found = await load(place);
-    const heading = decodeURIComponent(link.hash.slice(1));
-    if (found === undefined || (heading !== "" && !found.includes(` id="${heading}"`))) {
-      dead.push(`${address}: ${link.href}`);
-    } else if (isNew && place.includes("/documents/")) {
-      dead.push(...(await deadLinks(place, known)));
-    }
-  }
-  return dead;
-}
-
-test("every link of the documents leads to a page and its heading", async (context) => {
-  const site = await host(process.env["SITE"] ?? "");
-  const pages = new Map<string, string>();
-  assert.deepEqual(await deadLinks(`${site.address}documents/docs/index.html`, pages), []);
-  context.diagnostic(`${pages.size} pages, pictures and other files`);
-  assert.ok(pages.has(site.address.concat("index.html")), "the page that computes is linked");
-  const broken = new Map(
-    [...pages].map(([place, html]) => [place, html.replace("OPTIMAL.html", "NOWHERE.html").replace("#", "#no-")]),
-  );
-  const dead = await deadLinks(`${site.address}documents/docs/index.html`, broken);
-  assert.ok(dead.length > 0, "a broken link is found");
-  site.close();
-});
-
-interface Finding {
-  id: string;
-  impact: string;
-  nodes: { target: string[]; failureSummary: string }[];
-}
-
-/** What hinders people who use a screen reader or a keyboard, as axe finds it. */
-async function obstacles(page: Page): Promise<string[]> {
-  // Playwright passes the script past the policy of the page.
-  await page.evaluate(AXE);
-  const findings = await page.evaluate(async () => {
-    const { axe } = window as unknown as { axe: { run(options: object): Promise<{ violations: Finding[] }> } };
-    return (await axe.run({ iframes: false })).violations;
-  });
-  return findings.map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.failureSummary).join("; ")}`);
-}
-
 for (const colorScheme of ["light", "dark"] as const) {
   for (const [device, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
     test(`${device}, ${colorScheme}: accessible, and not wider than the window`, async () => {
       await visit(
-        async ({ page, host }) => {
+        async ({ page }) => {
           await shown(page, "demo");
           mkdirSync(SHOTS, { recursive: true });
           await page.waitForTimeout(500);
@@ -542,13 +484,6 @@ for (const colorScheme of ["light", "dark"] as const) {
           await page.waitForSelector("#preview .curve[d]");
           await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}-walk.png`) });
           assert.deepEqual(await obstacles(page), []);
-          for (const name of ["docs/index", "docs/OUTPUTS", "docs/PHYSICAL_WALK"]) {
-            await page.goto(`${host.address}documents/${name}.html`);
-            const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-            assert.ok(wide <= viewport.width, `${name} is ${wide} wide`);
-            await page.screenshot({ path: join(SHOTS, `web-${device}-${colorScheme}-${name.replace("/", "-")}.png`) });
-            assert.deepEqual(await obstacles(page), []);
-          }
         },
         { viewport, colorScheme },
       );

@@ -1,7 +1,8 @@
-// Tests the page: `node web/tests/run.mjs SITE [NAME]`. SITE is a folder that build.mjs has written. AMBULO names the program whose results the
+// Tests the page and the documents: `node web/tests/run.mjs SITE [NAME]`. SITE is a folder that build.mjs has written, or one with `documents` alone
+// (documents/site.mjs): then only these are tested. AMBULO names the program whose results the
 // page's are compared with, SHOTS a folder for screenshots. The browser is Chromium (its path in CHROMIUM), or Firefox (FIREFOX) if BROWSER is firefox.
 import { spawnSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { existsSync, mkdirSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -16,9 +17,14 @@ if (!site) {
 // The tests import packages of viewer/.
 const out = join(viewer, "out/web");
 mkdirSync(out, { recursive: true });
+const isWhole = existsSync(join(site, "index.html"));
+// The documents are the same in every browser.
+const isChromium = process.env.BROWSER !== "firefox";
+const tests = [...(isWhole ? ["page"] : []), ...(isChromium ? ["documents"] : [])];
 await build({
-  entryPoints: [join(here, "page.test.ts")],
-  outfile: join(out, "page.mjs"),
+  entryPoints: tests.map((name) => join(here, `${name}.test.ts`)),
+  outdir: out,
+  outExtension: { ".js": ".mjs" },
   bundle: true,
   packages: "external",
   platform: "node",
@@ -27,8 +33,12 @@ await build({
   sourcemap: "inline",
 });
 const pattern = only ? ["--test-name-pattern", only] : [];
-const run = spawnSync(process.execPath, ["--test", "--test-reporter=spec", ...pattern, join(out, "page.mjs")], {
-  stdio: "inherit",
-  env: { ...process.env, SITE: resolve(site), SHOTS: process.env.SHOTS ?? join(out, "shots") },
-});
+const run = spawnSync(
+  process.execPath,
+  ["--test", "--test-reporter=spec", ...pattern, ...tests.map((name) => join(out, `${name}.test.mjs`))],
+  {
+    stdio: "inherit",
+    env: { ...process.env, SITE: resolve(site), SHOTS: process.env.SHOTS ?? join(out, "shots") },
+  },
+);
 process.exitCode = run.status ?? 1;

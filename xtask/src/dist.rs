@@ -384,7 +384,7 @@ mod tests {
 
     #[test]
     fn every_action_of_the_workflows_is_pinned_to_a_commit() {
-        for name in [WORKFLOW, ".github/workflows/ci.yml"] {
+        for name in [WORKFLOW, ".github/workflows/ci.yml", ".github/workflows/pages.yml"] {
             let text = read(name);
             for action in text.lines().filter_map(|line| line.split_once("uses: ")).map(|(_, action)| action) {
                 let commit = action.split('@').nth(1).and_then(|rest| rest.split(' ').next()).unwrap_or_default();

@@ -37,9 +37,11 @@ usage: cargo xtask <command>
                     [--resume: those not yet run] [--retry: survivors again] [--page: only the page]
   python            make a wheel of the Python package from the module that `cargo test` has compiled, and test it in a bare environment
                     [--profile NAME: the module of another profile] [--with PROGRAM: in an environment of another Python] [--measure: build the wheel for users with maturin and
-                    print its size and times] [--free-threaded: compile the module for free-threaded Python]
+                    print its size by part and crate, and its times] [--free-threaded: compile the module for free-threaded Python]
   web               build the page that computes in the browser and the documents into target/page
-                    [--test: and test them in Chromium, and in Firefox if it is there]  [--site: with the API documentation]
+                    [--test: and test them in Chromium, and in Firefox if it is there]
+                    [--site: with the API documentation and the gallery, all links walked]
+                    [--documents: only documents and gallery, into target/documents, all links walked]
                     [--family: solve the walks between which its sliders interpolate: web/family/walks.json]
   dist              build the archives of a release into target/archives, with checksums and the list of components, and try them
                     [--target TARGET].. [--runner PROGRAM: starts programs of another machine] [--tag TAG: must be the version]

@@ -80,15 +80,21 @@ fn measure() -> Result<(), String> {
         fs::remove_dir_all(&wheels).map_err(|e| format!("{}: {e}", wheels.display()))?;
     }
     let folder = wheels.display().to_string();
-    let smallest = ["--compression-level", "9"];
-    environment
-        .python(&package, &[&["-m", "maturin", "build", "--locked", "--out", &folder][..], &smallest].concat())?;
+    let build = ["-m", "maturin", "build", "--locked", "--out", &folder, "--compression-level", "9"];
+    // The map of the linker has the size of every function. Other systems have other linkers.
+    let map = workspace::target().join("python/module.map").display().to_string();
+    let linked = format!("link-arg=-Wl,-Map={map}");
+    let with_map = if cfg!(target_os = "linux") { vec!["--", "-C", &linked] } else { Vec::new() };
+    environment.python(&package, &[&build[..], &with_map].concat())?;
     let found = fs::read_dir(&wheels).ok().and_then(|mut files| files.next()?.ok());
     let wheel = found.ok_or_else(|| format!("{}: maturin has made no wheel", wheels.display()))?.path();
     let wheel = wheel.display().to_string();
-    let [smaller, versions] = ["smallest_wheel.py", "requirements.txt"].map(packaging);
+    let [smaller, sizes, versions] = ["smallest_wheel.py", "module_sizes.py", "requirements.txt"].map(packaging);
     environment.install(&["--constraint", &versions, "zopfli"])?;
     environment.python(&package, &[&smaller, &wheel])?;
+    if cfg!(target_os = "linux") {
+        environment.python(&package, &[&sizes, &wheel, &map])?;
+    }
     environment.install(&["--force-reinstall", "--no-deps", &wheel])?;
     environment.install(&["numpy"])?;
     environment.python(&package, &["bench/measure.py", &wheel])

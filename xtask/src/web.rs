@@ -1,10 +1,12 @@
-//! The page that computes in the browser, and the documents: `cargo xtask web [--test | --site | --family]`.
+//! The page that computes in the browser, and the documents: `cargo xtask web [--test | --site | --documents |
+//! --family]`.
 //!
 //! Builds the `ambulo` command for WebAssembly with WASI and the page around it into `target/page`, ready for any
 //! static host, and prints the size of its files. With `--test`, tests it in Chromium and Firefox
-//! (`web/tests/page.test.ts`) and compares its results with those of the command. With `--site`, adds the API
-//! documentation of the crates. With `--family`, solves the walks between which its sliders interpolate
-//! (`web/family/walks.json`).
+//! (`web/tests/page.test.ts`) and compares its results with those of the command, and walks all links of the documents
+//! (`web/tests/documents.test.ts`). With `--site`, adds the API documentation of the crates and the gallery, and walks
+//! the links. With `--documents`, makes and walks the documents and the gallery alone, which needs no WebAssembly. With
+//! `--family`, solves the walks between which its sliders interpolate (`web/family/walks.json`).
 
 use crate::workspace;
 use std::fs;
@@ -21,16 +23,49 @@ const STACK: &str = "link-arg=-zstack-size=8388608";
 pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
-        [] => build(None).map(|_| ()),
-        ["--test"] => test(&build(None)?),
-        ["--site"] => build(Some(&api()?)).map(|_| ()),
+        [] => build(None, None).map(|_| ()),
+        ["--test"] => test(&build(None, None)?),
+        ["--site"] => site(),
+        ["--documents"] => documents(),
         ["--family"] => solve_family(),
-        _ => Err("usage: cargo xtask web [--test | --site | --family]".to_owned()),
+        _ => Err("usage: cargo xtask web [--test | --site | --documents | --family]".to_owned()),
     }
 }
 
-/// Builds the page and the documents, with the folder of the API documentation if there is one; returns its folder.
-fn build(api: Option<&Path>) -> Result<PathBuf, String> {
+/// Builds the whole address and walks its documents.
+fn site() -> Result<(), String> {
+    let program = drawing_program()?;
+    let site = build(Some(&api()?), Some(&program))?;
+    walk(&site, &program)
+}
+
+/// Makes the documents with the gallery, without the page that computes, and walks them.
+fn documents() -> Result<(), String> {
+    install_packages()?;
+    let program = drawing_program()?;
+    let site = workspace::target().join("documents");
+    finish(node("documents/site.mjs").arg(site.join("documents")).env("AMBULO", &program))?;
+    walk(&site, &program)
+}
+
+/// Follows all links of the documents in Chromium, and tests their search.
+fn walk(site: &Path, program: &Path) -> Result<(), String> {
+    let only = site.join("index.html").exists().then_some("documents");
+    finish(node("tests/run.mjs").arg(site).args(only).env("AMBULO", program))
+}
+
+/// The command that draws the gallery: the one that the variable AMBULO names, or a new one.
+fn drawing_program() -> Result<PathBuf, String> {
+    if let Some(program) = std::env::var_os("AMBULO") {
+        return std::path::absolute(PathBuf::from(program)).map_err(|e| format!("AMBULO: {e}"));
+    }
+    finish(workspace::cargo().args(["build", "--locked", "--package", "ambulo-cli"]))?;
+    Ok(workspace::debug_program())
+}
+
+/// Builds the page and the documents, with the folder of the API documentation and a gallery drawn by a program if
+/// there are any; returns its folder.
+fn build(api: Option<&Path>, program: Option<&Path>) -> Result<PathBuf, String> {
     if !has_target() {
         return Err(format!("the target {TARGET} is not installed\nhint: `rustup target add {TARGET}` installs it"));
     }
@@ -40,8 +75,10 @@ fn build(api: Option<&Path>) -> Result<PathBuf, String> {
     finish(command.args(["--target", TARGET, "--", "-C", STACK]))?;
     // Not `web`: that is the folder in which cargo keeps the build scripts of the profile.
     let site = workspace::target().join("page");
-    let program = workspace::target().join(TARGET).join("web/ambulo.wasm");
-    finish(node("build.mjs").arg(program).arg(&site).args(api))?;
+    let wasm = workspace::target().join(TARGET).join("web/ambulo.wasm");
+    let mut build = node("build.mjs");
+    build.arg(wasm).arg(&site).args(api).env_remove("AMBULO");
+    finish(build.envs(program.map(|program| ("AMBULO", program))))?;
     Ok(site)
 }
 

@@ -14,6 +14,7 @@ mod workbench;
 
 mod bad_input;
 mod batch;
+mod conformance;
 mod consistent;
 mod exchange;
 mod failure;
@@ -49,6 +50,7 @@ mod stream;
 mod stream_messages;
 mod stream_options;
 mod summary_schema;
+mod surface;
 mod sweep;
 mod trial_words;
 mod tune;

@@ -25,6 +25,16 @@ fn rows(section: &str) -> Vec<Vec<String>> {
     lines.map(|l| l.trim_matches('|').split('|').map(|c| c.trim().replace('`', "")).collect()).collect()
 }
 
+/// A section of the page as Markdown, for a new set.
+fn section(name: &str, rows: &[Vec<String>]) -> String {
+    let row = |cells: &Vec<String>| {
+        let names: Vec<String> = cells[0].split(", ").map(|name| format!("`{name}`")).collect();
+        format!("| {} | {} |\n", names.join(", "), cells[1..].join(" | "))
+    };
+    let head = "| names | side | segment | landmark |\n|---|---|---|---|\n";
+    format!("## {name}\n\n{head}{}", rows.iter().map(row).collect::<String>())
+}
+
 #[test]
 fn every_built_in_set_is_read_and_has_each_name_once() {
     for set in MarkerSet::built_in().unwrap() {
@@ -49,7 +59,9 @@ fn the_page_lists_every_marker_of_every_set_with_its_names_and_meaning() {
             let on = marker.landmark.map_or("technical", Landmark::word).to_owned();
             expected.push(vec![marker.names.join(", "), side, marker.segment.word().to_owned(), on]);
         }
-        assert_eq!(rows(&set.name), expected, "section {} of docs/MARKERS.md", set.name);
+        let is_there = PAGE.contains(&format!("\n## {}\n", set.name));
+        let found = if is_there { rows(&set.name) } else { Vec::new() };
+        assert!(found == expected, "docs/MARKERS.md should have this section:\n\n{}", section(&set.name, &expected));
     }
 }
 

@@ -84,6 +84,32 @@ struct Item<'t> {
     owner: Option<&'t str>,
     file: usize,
     line: usize,
+    /// The declaration with what users reach in its body, in one line.
+    #[cfg(test)]
+    head: String,
+}
+
+/// The front door of the library: crates, and modules of a crate, whose public items stay as they are in a version 0.1.
+#[cfg(test)]
+pub(super) const FRONT_DOOR: [(&str, &[&str]); 3] =
+    [("ambulo", &["job", "study"]), ("ambulo-body", &["model", "motion", "dynamics"]), ("ambulo-formats", &[])];
+
+/// Declarations of the public items of [`FRONT_DOOR`], one per line and sorted.
+#[cfg(test)]
+pub(super) fn front_door(crates: &[Crate]) -> String {
+    let mut lines = BTreeSet::new();
+    for (name, modules) in FRONT_DOOR {
+        let Some(one) = crates.iter().find(|one| one.name == name) else { continue };
+        let files = product_tokens(one);
+        for item in public_items(&one.files, &files) {
+            let module = *one.files[item.file].module().first().unwrap_or(&"");
+            if modules.is_empty() || modules.contains(&module) {
+                let owner = item.owner.map_or(String::new(), |owner| format!("{owner}::"));
+                lines.insert(format!("{name} {module}: {owner}{} = {}\n", item.name, item.head));
+            }
+        }
+    }
+    lines.into_iter().collect()
 }
 
 /// The items of a crate that its users can reach.
@@ -148,12 +174,54 @@ fn read<'t>(file: usize, tokens: &[Token<'t>]) -> Read<'t> {
             "mod" => _ = read.children.insert(name.text),
             word @ ("fn" | "struct" | "enum" | "trait" | "union") => {
                 let owner = owners.iter().find(|(from, to, _)| *from < at && at < *to).map(|(_, _, owner)| *owner);
-                read.items.push(Item { name: name.text, is_function: word == "fn", owner, file, line: name.line });
+                read.items.push(Item {
+                    name: name.text,
+                    is_function: word == "fn",
+                    owner,
+                    file,
+                    line: name.line,
+                    #[cfg(test)]
+                    head: declaration(&tokens[at..end], &members(tokens, word, end)),
+                });
             }
             _ => {}
         }
     }
     read
+}
+
+/// A head and what users reach in the body, in one line.
+#[cfg(test)]
+fn declaration(head: &[Token<'_>], members: &[Token<'_>]) -> String {
+    let words: Vec<&str> = head.iter().chain(members).map(|token| token.text).collect();
+    words.join(" ").replace("- >", "->")
+}
+
+/// What users reach in the body at `open`: public fields of a structure, variants of an enum.
+#[cfg(test)]
+fn members<'t>(tokens: &[Token<'t>], word: &str, open: usize) -> Vec<Token<'t>> {
+    if !["struct", "enum"].contains(&word) || !tokens.get(open).is_some_and(|token| token.is("{")) {
+        return Vec::new();
+    }
+    let (mut kept, mut begin, mut depth) = (Vec::new(), open + 1, 0_usize);
+    for i in open + 1..=closing(tokens, open) {
+        let is_last = i == closing(tokens, open);
+        if is_last || depth == 0 && tokens[i].is(",") {
+            while tokens[begin..i].first().is_some_and(|token| token.is("#")) {
+                begin = closing(tokens, begin + 1) + 1;
+            }
+            if word == "enum" || tokens[begin].is("pub") && !tokens[begin + 1].is("(") {
+                kept.extend(&tokens[begin..(i + 1).min(closing(tokens, open))]);
+            }
+            begin = i + 1;
+        }
+        match tokens[i].text {
+            "(" | "[" | "{" | "<" => depth += 1,
+            ")" | "]" | "}" | ">" => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    kept
 }
 
 /// Takes the names of a re-export that begins after its `use`.
@@ -211,6 +279,42 @@ mod tests {
 
     fn file(path: &str, text: &str) -> File {
         File { path: path.to_owned(), text: text.to_owned() }
+    }
+
+    /// With AMBULO_WRITE=1 the record is written. `crates/ambulo-cli/tests/surface.rs` asks for a line of the
+    /// CHANGELOG.
+    #[test]
+    fn the_front_door_of_the_library_is_recorded() {
+        let path = crate::workspace::root().join("docs/surface/rust.txt");
+        let found = front_door(&super::super::source::crates(&crate::workspace::root()).unwrap());
+        if std::env::var_os("AMBULO_WRITE").is_some() {
+            std::fs::write(&path, &found).unwrap();
+        }
+        let recorded = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(found == recorded, "{} is out of date; run this test with AMBULO_WRITE=1", path.display());
+    }
+
+    #[test]
+    fn another_argument_of_a_public_function_changes_the_front_door() {
+        let door = |text: &str| {
+            let files = vec![file("lib.rs", "pub mod job;"), file("job/mod.rs", text)];
+            front_door(&[Crate { name: "ambulo".to_owned(), files }])
+        };
+        let before = "pub struct Job { #[serde] pub mass: Option<f64>, own: u8 } impl Job \
+            { pub fn run(&self) -> u8 { 1 } } fn own() {} pub fn read(text: &str) {}";
+        let expected = "ambulo job: Job = pub struct Job pub mass : Option < f64 > ,\n\
+                        ambulo job: Job::run = pub fn run ( & self ) -> u8\n\
+                        ambulo job: read = pub fn read ( text : & str )\n";
+        assert_eq!(door(before), expected);
+        assert_eq!(
+            door(&before.replace("{ 1 }", "{ 2 }").replace("own", "mine")),
+            expected,
+            "bodies and private names do not count"
+        );
+        for (old, new) in [("&str", "&[u8]"), ("mass", "mass_kg"), ("pub mass", "mass"), ("-> u8", "-> u16")] {
+            assert_ne!(door(&before.replace(old, new)), expected);
+        }
+        assert_ne!(door(&before.replace("pub fn read", "fn read")), expected);
     }
 
     #[test]
