@@ -125,6 +125,8 @@ fn a_calibration_explains_an_offset_and_a_turned_knee_axis_but_no_other_shape() 
     assert_eq!(certainty("hip_rotation_angle", |_| -21.0), Calibration, "a wand");
     assert_eq!(certainty("subtalar_angle", |_| 22.0), Calibration);
     assert_eq!(certainty("knee_adduction_angle", |f| 2.0 + 0.2 * f), Calibration, "an axis turned by 12 degrees");
+    assert_eq!(certainty("ankle_inversion_moment", |f| 0.2 * f), Calibration, "a share of the dorsiflexion moment");
+    assert_eq!(certainty("ankle_inversion_moment", |f| 0.2 * f + 3.0), Clear, "a constant moment");
     // The same changes where no placement of markers explains them.
     assert_eq!(certainty("hip_rotation_angle", |f| 0.2 * f), Clear);
     assert_eq!(certainty("knee_flexion_angle", |_| -21.0), Clear);

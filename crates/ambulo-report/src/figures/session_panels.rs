@@ -12,8 +12,8 @@ use ambulo::study::session::NormalCurve;
 const TICK: f64 = 0.07;
 /// Steps by which a scale grows where a curve leaves it, as a share of its range.
 const STEP: f64 = 0.1;
-/// Height of the axes [pt].
-const HEIGHT: f64 = 96.0;
+/// Height of the axes [pt]: five rows fit on a printed page.
+const HEIGHT: f64 = 80.0;
 /// A curve that leaves the scale by less, as a share of its range, changes no scale.
 const SLACK: f64 = 0.01;
 
@@ -211,7 +211,7 @@ impl ProfileFigure {
             caption: &self.caption,
             width_mm: style.widths_mm.two_columns,
             rows: std::iter::once(0..1).collect(),
-            panel_height: 1.3 * HEIGHT,
+            panel_height: 1.5 * HEIGHT,
             legend: vec![
                 (Sample::Patch(&style.right.color, 1.0), right.clone()),
                 (Sample::Patch(&style.left.color, 1.0), left.clone()),

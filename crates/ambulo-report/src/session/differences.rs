@@ -4,11 +4,8 @@ use super::{ComparedSession, Norms, Session, SessionQuantity, all};
 use crate::validation::shown;
 use ambulo::model::Side;
 use ambulo::numerics::{mean, rms};
-use ambulo::study::session::{Certainty, CurveChange, CycleForces, curve_change, pooled};
+use ambulo::study::session::{Certainty, CurveChange, CycleForces, curve_change, mixed_with, pooled};
 use std::fmt::Write;
-
-/// The angle that a turned axis of the knee mixes into others.
-const FLEXION: &str = "knee_flexion_angle";
 
 /// The change of a quantity of one side.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +39,8 @@ pub(super) fn changes(after: &Session, before: &Session, norms: &Norms) -> Vec<C
     let of = |quantity: SessionQuantity, side: Side| {
         let now = pooled(&after.cycles, quantity.id, side)?;
         let then = pooled(&before.cycles, quantity.id, side)?;
-        let flexion = flexion(after, before, side);
-        let found = curve_change(quantity.id, &then, &now, flexion.as_deref())?;
+        let mixed = mixed_with(quantity.id).and_then(|other| middle(after, before, (other, side)));
+        let found = curve_change(quantity.id, &then, &now, mixed.as_deref())?;
         let norm = norms.curve(quantity.id);
         let [then_mean, now_mean] = [then.statistics.mean, now.statistics.mean];
         Some(Change {
@@ -59,9 +56,9 @@ pub(super) fn changes(after: &Session, before: &Session, norms: &Norms) -> Vec<C
     all().flat_map(|quantity| Side::BOTH.map(|side| of(quantity, side))).flatten().collect()
 }
 
-/// Mean flexion of the knee over both sessions.
-fn flexion(after: &Session, before: &Session, side: Side) -> Option<Vec<f64>> {
-    let of = |session: &Session| Some(pooled(&session.cycles, FLEXION, side)?.statistics.mean);
+/// Mean of a quantity over both sessions.
+fn middle(after: &Session, before: &Session, (quantity, side): (&str, Side)) -> Option<Vec<f64>> {
+    let of = |session: &Session| Some(pooled(&session.cycles, quantity, side)?.statistics.mean);
     Some(of(after)?.iter().zip(&of(before)?).map(|(a, b)| mean(&[*a, *b])).collect())
 }
 

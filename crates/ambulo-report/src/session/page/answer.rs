@@ -52,7 +52,7 @@ fn sentence(changes: &ChangesSummary) -> String {
                 )
             }
             "single_cycle" => {
-                format!("<b>Whether the walk is {closer} is not known</b>: {numbers}, from a single cycle of a side.")
+                format!("<b>Whether the walk is {closer} is not known</b>: {numbers}, but one side has a single cycle.")
             }
             _ => format!("<b>The walk is as far from normal as before</b>: {numbers}."),
         };

@@ -56,12 +56,12 @@ fn first_sheet(compared: &ComparedSession, figures: &Figures<'_>, title: &str) -
     let summary = &compared.session.summary;
     let strip = compared.session.figure.as_deref().unwrap_or_default();
     let mut html = format!(
-        "<header>\n<h1>{}</h1>\n<p>{}</p>\n{strip}</header>\n{}<main>\n<div class=\"first\">\n",
+        "<header>\n<div><h1>{}</h1>\n<p>{}</p></div>\n{strip}</header>\n{}<main>\n<div class=\"first\">\n",
         escaped(title),
         escaped(&subtitle(summary)),
         contents(compared)
     );
-    let normal = answer::normal(summary, figures)?;
+    let normal = answer::normal(summary, figures)? + &section(&sections::times(compared));
     let warnings = warnings(compared);
     html += &match &summary.changes {
         Some(changes) => format!("{}{warnings}</div>\n{normal}", answer::what_changed(summary, changes)),
@@ -130,7 +130,6 @@ fn curves(figures: &Figures<'_>) -> Result<String, FigureError> {
 /// The tables: the short ones open, the long ones folded.
 fn tables(compared: &ComparedSession) -> String {
     let mut html = String::from("<section id=\"tables\"><h2>Tables</h2>\n");
-    html += &section(&sections::times(compared));
     html += &section(&sections::knee_adduction(&compared.session));
     html += &section(&sections::contact_loads(&compared.session));
     let mut long = Vec::new();

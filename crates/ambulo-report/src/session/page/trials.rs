@@ -89,53 +89,89 @@ fn other_recordings(summary: &SessionSummary) -> String {
     format!("<h3>Other recordings</h3>\n<ul>\n{items}</ul>\n")
 }
 
-/// Each different warning with the names of its trials, in the order of the trials.
-fn grouped(trials: &[TrialSummary], is_wanted: impl Fn(&TrialWarning) -> bool) -> Vec<(&str, Vec<&str>)> {
-    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
-    for trial in trials {
-        for warning in trial.warnings.iter().filter(|warning| is_wanted(warning)) {
-            match groups.iter_mut().find(|(message, _)| *message == warning.message) {
-                Some((_, names)) => names.push(&trial.trial),
-                None => groups.push((&warning.message, vec![&trial.trial])),
-            }
+/// Warnings of the same code: the first message, the number of other messages, and the trials.
+struct Group<'a> {
+    code: &'a str,
+    message: &'a str,
+    others: Vec<&'a str>,
+    trials: Vec<&'a str>,
+}
+
+/// The warnings by their codes, in the order of the trials.
+fn grouped<'a>(
+    sessions: impl Iterator<Item = &'a Session>,
+    is_wanted: impl Fn(&TrialWarning) -> bool,
+) -> Vec<Group<'a>> {
+    let mut groups: Vec<Group<'a>> = Vec::new();
+    let trials = sessions.flat_map(|session| &session.summary.trials);
+    for (trial, warning) in trials.flat_map(|trial| trial.warnings.iter().map(move |warning| (trial, warning))) {
+        if !is_wanted(warning) {
+            continue;
+        }
+        let (code, message, name) = (warning.code.as_str(), warning.message.as_str(), trial.trial.as_str());
+        let Some(group) = groups.iter_mut().find(|group| group.code == code && group.belongs(message)) else {
+            groups.push(Group { code, message, others: Vec::new(), trials: vec![name] });
+            continue;
+        };
+        if group.message != message && !group.others.contains(&message) {
+            group.others.push(message);
+        }
+        if !group.trials.contains(&name) {
+            group.trials.push(name);
         }
     }
     groups
 }
 
-/// Warnings about the sessions as a whole and about their bodies; they belong on the first sheet.
-pub(super) fn first_warnings(session: &Session, earlier: Option<&Session>) -> Vec<String> {
-    let mut all: Vec<String> = session.summary.warnings.iter().map(|warning| code(warning)).collect();
-    let sessions = [(Some(session), ""), (earlier, "Earlier session: ")];
-    for (session, start) in sessions.into_iter().filter_map(|(session, start)| Some((session?, start))) {
-        let trials = &session.summary.trials;
-        let found = grouped(trials, TrialWarning::is_of_calibration);
-        all.extend(found.iter().map(|(message, names)| format!("{start}{}{}", code(message), of(names, trials.len()))));
+impl Group<'_> {
+    /// Assumptions of a calibration are different statements under one code.
+    fn belongs(&self, message: &str) -> bool {
+        self.code != ASSUMED || message == self.message
     }
-    all
+
+    fn html(&self) -> String {
+        let trials = match self.trials.len() {
+            1..=3 => self.trials.join(", "),
+            count => format!("{count} trials: {}, ...", self.trials[0]),
+        };
+        let more = match self.others.len() {
+            0 => String::new(),
+            count => format!("; {count} more like it"),
+        };
+        format!("{} <span class=\"soft\">({}{more})</span>", code(self.message), escaped(&trials))
+    }
 }
 
-/// All warnings about the data of the trials.
+/// The code of assumptions of a calibration; one that names what may be misplaced changes angles.
+const ASSUMED: &str = "calibration.assumed";
+const MISPLACED: &str = "misplaced";
+
+/// Whether a warning decides which angles can be used.
+fn comes_first(warning: &TrialWarning) -> bool {
+    warning.is_of_calibration() && (warning.code != ASSUMED || warning.message.contains(MISPLACED))
+}
+
+/// Warnings about the sessions as a whole and about their bodies; they belong on the first sheet.
+pub(super) fn first_warnings(session: &Session, earlier: Option<&Session>) -> Vec<String> {
+    let own = session.summary.warnings.iter().map(|warning| code(warning));
+    let found = grouped([Some(session), earlier].into_iter().flatten(), comes_first);
+    own.chain(found.iter().map(Group::html)).collect()
+}
+
+/// The other warnings about the data of the trials: one of each kind, and all of them in a part to open.
 pub(super) fn data_warnings(session: &Session) -> String {
-    let trials = &session.summary.trials;
-    let found = grouped(trials, |warning| !warning.is_of_calibration());
+    let found = grouped(std::iter::once(session), |warning| !comes_first(warning));
     if found.is_empty() {
         return String::new();
     }
-    let item =
-        |(message, names): &(&str, Vec<&str>)| format!("<li>{}{}</li>\n", code(message), of(names, trials.len()));
-    let items: String = found.iter().map(item).collect();
-    format!(
-        "<section id=\"warnings\"><h2>Warnings about the data</h2>\n<ul class=\"data\">\n{items}</ul>\n</section>\n"
-    )
-}
-
-/// The trials of a warning.
-fn of(names: &[&str], all: usize) -> String {
-    let words = match names.len() {
-        count if count == all && all > 1 => format!("all {all} trials"),
-        1..=3 => names.join(", "),
-        several => format!("{several} trials: {}, ...", names[0]),
-    };
-    format!(" <span class=\"soft\">({})</span>", escaped(&words))
+    let items: String = found.iter().map(|group| format!("<li>{}</li>\n", group.html())).collect();
+    let mut html = format!("<section id=\"warnings\"><h2>Warnings about the data</h2>\n<ul>\n{items}</ul>\n");
+    if found.iter().any(|group| !group.others.is_empty()) {
+        let own = |trial: &TrialSummary| {
+            let items = trial.warnings.iter().map(|warning| format!("<li>{}</li>\n", code(&warning.message)));
+            format!("<h3>{}</h3>\n<ul>\n{}</ul>\n", escaped(&trial.trial), items.collect::<String>())
+        };
+        html += &super::folded("Every warning", &session.summary.trials.iter().map(own).collect::<String>());
+    }
+    html + "</section>\n"
 }

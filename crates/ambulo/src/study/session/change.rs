@@ -6,13 +6,13 @@
 //!   s(t) = √( s_before(t)² / n_before + s_after(t)² / n_after )
 //!
 //! Markers are placed anew in every session. A marker in another place turns the axes of its segment: that adds a
-//! constant to angles, and mixes flexion of the knee into its varus and rotation. Such a change is not one of the
-//! person. It cannot be told from one either, so it is not counted as clear.
+//! constant to angles, and mixes the angle and the moment about the largest axis of a joint into those about its other
+//! axes. Such a change is not one of the person. It cannot be told from one either, so it is not counted as clear.
 //!
 //! | symbol | unit | meaning |
 //! |---|---|---|
-//! | a | deg | constant, at most [`calibration_error`] |
-//! | b | 1 | share of the flexion f of the knee, for its varus and rotation only; at most sin 20° |
+//! | a | deg | constant of an angle, at most [`calibration_error`]; 0 for other quantities |
+//! | b | 1 | share of f, the flexion or its moment ([`mixed_with`]); at most sin 20° |
 //! | s(t) | unit of the curve | standard deviation of the difference of the means over the cycles |
 //!
 //! A sample is clear if \|r\| exceeds both 2 s and [`least_change`].
@@ -23,14 +23,16 @@
 
 use super::pool::CurveStatistics;
 use super::{CycleForces, PooledCurve};
-use crate::numerics::{mean, rms};
+use crate::numerics::mean;
 
 /// A change above this many standard deviations of the difference is more than variation.
 const CLEAR_SD: f64 = 2.0;
 /// A change is clear if it is so in more than this share of the cycle.
 const CLEAR_SHARE: f64 = 0.1;
-/// Largest share of flexion that a turned axis of the knee mixes into other angles: sin 20°.
+/// Largest share that a turned axis mixes into the quantities about other axes: sin 20°.
 const MOST_CROSS_TALK: f64 = 0.342;
+/// A curve whose squares sum to less shows no axis.
+const LEAST_SQUARES: f64 = 0.1;
 
 /// How sure a change is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,7 +68,7 @@ impl Certainty {
         match self {
             Certainty::Clear => "clear",
             Certainty::Calibration => "a new calibration explains it",
-            Certainty::Variation => "not more than the variation between cycles",
+            Certainty::Variation => "within the variation between cycles",
             Certainty::Predicted => "not sure: predicted forces",
             Certainty::SingleCycle => "not known: a single cycle",
         }
@@ -124,22 +126,35 @@ pub fn least_change(quantity: &str) -> f64 {
     }
 }
 
-/// Change of a quantity of one side. `flexion` is the mean flexion of the knee over both sessions [deg]. `None` if the
-/// forces have another source in each session, or the curves different lengths.
+/// The quantity that a turned axis of the joint mixes into this one.
+#[must_use]
+pub fn mixed_with(quantity: &str) -> Option<&'static str> {
+    match quantity {
+        "knee_adduction_angle" | "knee_rotation_angle" => Some("knee_flexion_angle"),
+        "subtalar_angle" => Some("ankle_dorsiflexion_angle"),
+        "hip_adduction_moment" | "hip_rotation_moment" => Some("hip_flexion_moment"),
+        "knee_adduction_moment" | "knee_rotation_moment" => Some("knee_flexion_moment"),
+        "ankle_inversion_moment" | "ankle_rotation_moment" => Some("ankle_dorsiflexion_moment"),
+        _ => None,
+    }
+}
+
+/// Change of a quantity of one side. `mixed` is the mean over both sessions of the curve of [`mixed_with`]. `None` if
+/// the forces have another source in each session, or the curves different lengths.
 #[must_use]
 pub fn curve_change(
     quantity: &str,
     before: &PooledCurve,
     after: &PooledCurve,
-    flexion: Option<&[f64]>,
+    mixed: Option<&[f64]>,
 ) -> Option<CurveChange> {
     let (a, b) = (&after.statistics, &before.statistics);
     if before.forces != after.forces || a.mean.len() != b.mean.len() {
         return None;
     }
     let change: Vec<f64> = a.mean.iter().zip(&b.mean).map(|(a, b)| a - b).collect();
-    let flexion = flexion.filter(|f| f.len() == change.len() && is_mixed(quantity));
-    let (offset, explained) = explained(quantity, &change, flexion);
+    let mixed = mixed.filter(|f| f.len() == change.len() && mixed_with(quantity).is_some());
+    let (offset, explained) = explained(quantity, &change, mixed);
     let beyond: Vec<f64> = change.iter().zip(&explained).map(|(d, c)| d - c).collect();
     let variation = variation(a, b);
     let least = least_change(quantity);
@@ -159,30 +174,23 @@ pub fn curve_change(
     Some(CurveChange { change, explained, beyond, variation, offset, clear, certainty })
 }
 
-/// Whether a turned axis of the knee mixes its flexion into this angle.
-fn is_mixed(quantity: &str) -> bool {
-    matches!(quantity, "knee_adduction_angle" | "knee_rotation_angle")
-}
-
 /// a and c(t).
-fn explained(quantity: &str, change: &[f64], flexion: Option<&[f64]>) -> (f64, Vec<f64>) {
-    let Some(limit) = calibration_error(quantity) else { return (0.0, vec![0.0; change.len()]) };
-    let middle = mean(change);
-    let share = flexion.map_or(0.0, |f| slope(f, change).clamp(-MOST_CROSS_TALK, MOST_CROSS_TALK));
-    let centre = flexion.map_or(0.0, mean);
-    let offset = (middle - share * centre).clamp(-limit, limit);
-    let at = |i: usize| offset + share * flexion.map_or(0.0, |f| f[i]);
+fn explained(quantity: &str, change: &[f64], mixed: Option<&[f64]>) -> (f64, Vec<f64>) {
+    let limit = calibration_error(quantity);
+    // Without a constant the line goes through the origin.
+    let centred = |curve: &[f64]| limit.map_or(0.0, |_| mean(curve));
+    let share = mixed.map_or(0.0, |f| slope([f, change], [centred(f), centred(change)]));
+    let offset = centred(change) - share * mixed.map_or(0.0, centred);
+    let offset = limit.map_or(0.0, |limit| offset.clamp(-limit, limit));
+    let at = |i: usize| offset + share * mixed.map_or(0.0, |f| f[i]);
     (offset, (0..change.len()).map(at).collect())
 }
 
-/// Slope of the least squares line of y over x; 0 if x hardly changes.
-fn slope(x: &[f64], y: &[f64]) -> f64 {
-    let (x_mean, y_mean) = (mean(x), mean(y));
-    let from_mean: Vec<f64> = x.iter().map(|x| x - x_mean).collect();
-    let squares: f64 = from_mean.iter().map(|x| x * x).sum();
-    let products: f64 = from_mean.iter().zip(y).map(|(x, y)| x * (y - y_mean)).sum();
-    // Less than a degree of flexion shows no axis.
-    if rms(&from_mean) < 1.0 { 0.0 } else { products / squares }
+/// Slope of the least squares line of y over x through a point, within the limits; 0 if x hardly changes.
+fn slope([x, y]: [&[f64]; 2], [x_at, y_at]: [f64; 2]) -> f64 {
+    let squares: f64 = x.iter().map(|x| (x - x_at).powi(2)).sum();
+    let products: f64 = x.iter().zip(y).map(|(x, y)| (x - x_at) * (y - y_at)).sum();
+    if squares > LEAST_SQUARES { (products / squares).clamp(-MOST_CROSS_TALK, MOST_CROSS_TALK) } else { 0.0 }
 }
 
 /// 2 s(t).

@@ -22,7 +22,7 @@ mod pool;
 mod profile;
 mod representative;
 
-pub use change::{Certainty, CurveChange, calibration_error, curve_change, least_change};
+pub use change::{Certainty, CurveChange, calibration_error, curve_change, least_change, mixed_with};
 pub use exclusion::{CycleFacts, Exclusion, TrialFacts, exclusions};
 pub use pool::{CurveStatistics, PooledCurve, pooled, side_difference};
 pub use profile::{Deviation, GaitProfile, NormalCurve, PROFILE, VariableScore, deviation, deviation_index, profile};
