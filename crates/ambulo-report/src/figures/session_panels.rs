@@ -13,7 +13,7 @@ const TICK: f64 = 0.07;
 /// Steps by which a scale grows where a curve leaves it, as a share of its range.
 const STEP: f64 = 0.1;
 /// Height of the axes [pt]: five rows fit on a printed page.
-const HEIGHT: f64 = 80.0;
+const HEIGHT: f64 = 76.0;
 /// A curve that leaves the scale by less, as a share of its range, changes no scale.
 const SLACK: f64 = 0.01;
 
@@ -83,9 +83,9 @@ pub struct SessionPanel {
     pub foot_offs: [Vec<(f64, LineLook)>; 2],
 }
 
-/// Width of a panel, and the margins beside its axes [pt].
+/// Width of a panel; the margins at the left and at the right of its axes [pt]: half of the label `100` at the right.
 const WIDTH_MM: f64 = 59.0;
-const MARGIN: f64 = 3.0;
+const MARGINS: [f64; 2] = [2.0, 7.0];
 
 impl SessionPanel {
     /// The panel as SVG; `figure` comes first in its name.
@@ -95,7 +95,7 @@ impl SessionPanel {
     pub fn svg(&self, figure: &str) -> Result<String, FigureError> {
         let style = style().map_err(|e| FigureError { name: "session", reason: e.to_string() })?;
         let mut drawing = Drawing::new(points(WIDTH_MM), &style.font.family);
-        let place = [MARGIN + LEFT, ABOVE, drawing.width() - MARGIN, ABOVE + HEIGHT];
+        let place = [MARGINS[0] + LEFT, ABOVE, drawing.width() - MARGINS[1], ABOVE + HEIGHT];
         self.draw(&mut drawing, style, Slot { number: 0, place, named: true, legend_height: 0.0 }, figure);
         Ok(drawing.finish(ABOVE + HEIGHT + BELOW, self.title, &self.description(), &style.paper.color))
     }

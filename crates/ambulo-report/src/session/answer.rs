@@ -81,7 +81,7 @@ fn of_time(row: &TimeChange, compared: &ComparedSession) -> ChangeSummary {
         two_sd: row.variation(),
         normal: compared.norms.time(&row.quantity).and_then(|normal| normal.mean),
         certainty: certainty.word().to_owned(),
-        words: certainty.words(),
+        words: if certainty == Certainty::SingleCycle { "not known: a single value" } else { certainty.words() },
         ..ChangeSummary::default()
     }
 }

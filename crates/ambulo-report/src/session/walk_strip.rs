@@ -14,7 +14,7 @@ use std::fmt::Write;
 const INSTANTS: [f64; 7] = [0.0, 12.0, 31.0, 50.0, 62.0, 81.0, 100.0];
 /// Pixels per metre; space per figure, height above the ground and below it [m].
 const SCALE: f64 = 100.0;
-const APART: f64 = 0.62;
+const APART: f64 = 0.8;
 const BELOW: f64 = 0.2;
 /// Shorter paths show no direction [m].
 const SHORTEST_M: f64 = 0.2;

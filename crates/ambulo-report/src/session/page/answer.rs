@@ -5,7 +5,7 @@ use super::super::{ChangeSummary, ChangesSummary, SessionSummary, Spread};
 use super::figures::Figures;
 use super::sections;
 use crate::figures::FigureError;
-use crate::html::escaped;
+use crate::html::{code, escaped};
 use std::fmt::Write;
 
 /// The names of curves in a sentence.
@@ -162,8 +162,9 @@ pub(super) fn normal(summary: &SessionSummary, figures: &Figures<'_>) -> Result<
         ("left", "left", score(profile.left)),
         ("expected of a healthy person", "", profile.expected.map(|expected| (expected, None))),
     ];
+    let is_known = scores[..3].iter().any(|(.., score)| score.is_some());
     html += "<div class=\"scores\">\n";
-    for (name, class, score) in scores {
+    for (name, class, score) in scores.into_iter().filter(|_| is_known) {
         let Some((mean, sd)) = score else { continue };
         let sd = sd.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
         let _ = writeln!(html, "<div class=\"score {class}\"><b>{mean:.1}°</b><span>{name}{sd}</span></div>");
@@ -180,7 +181,7 @@ pub(super) fn normal(summary: &SessionSummary, figures: &Figures<'_>) -> Result<
 
 fn deviation_index(profile: &super::super::ProfileSummary) -> String {
     if let Some(why) = &profile.no_deviation_index {
-        return format!("<p class=\"soft\">No gait deviation index: {}.</p>\n", escaped(why));
+        return format!("<p class=\"soft\">No gait deviation index: {}.</p>\n", code(why));
     }
     let Some(index) = profile.deviation_index else { return String::new() };
     let number = |index: Option<f64>| index.map_or("-".to_owned(), |index| format!("{index:.0}"));

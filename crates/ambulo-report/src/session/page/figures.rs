@@ -67,7 +67,7 @@ impl Figures<'_> {
             id: quantity.id,
             title: words.title,
             unit: words.unit,
-            directions: words.directions,
+            directions: words.directions.map(short),
             scale: quantity.scale,
             band: self.compared.norm(quantity.id).cloned(),
             areas: Vec::new(),
@@ -235,6 +235,15 @@ impl Figures<'_> {
             bars,
             legend: ["right", "left", "expected of a person of the reference group"].map(str::to_owned),
         })
+    }
+}
+
+/// A direction in a word that leaves room for the other one along the ordinate.
+fn short(direction: &'static str) -> &'static str {
+    match direction {
+        "dorsiflexion" | "dorsiflexor" => "dorsi",
+        "plantarflexion" | "plantarflexor" => "plantar",
+        other => other,
     }
 }
 

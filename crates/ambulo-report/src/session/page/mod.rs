@@ -231,5 +231,5 @@ fn section(section: &Section) -> String {
     if section.table.rows().is_empty() {
         return String::new();
     }
-    format!("<h3>{}</h3>\n{}", escaped(section.title), html_table(section))
+    format!("<div class=\"whole\"><h3>{}</h3>\n{}</div>\n", escaped(section.title), html_table(section))
 }
