@@ -88,7 +88,7 @@ def test_messages_name_arguments_and_not_options():
         ("a BVH contains no body mass; expected --mass KG", "a BVH contains no body mass; expected mass="),
         ("invalid value '75 kg' for '--mass <KG>': found", "invalid value '75 kg' for 'mass=': found"),
         ("add `--model FILE`, or --predict.", "add `model=`, or predict=True."),
-        ("--from 3 is after --to T", "start= 3 is after end="),
+        ("--from 3 is after --to T", "start=3 is after end="),
         ("give `--no-ground`; two--way", "give `ground=False`; two--way"),
     ]:
         assert in_python(text) == expected

@@ -41,7 +41,7 @@ class AmbuloWarning(UserWarning):
 _RENAMED = {"from": "start=", "to": "end=", "plate": "plates=", "no-ground": "ground=False", "no-toe-joint": "toe_joint=False"}
 _SWITCHES = {"predict", "track", "refit", "consistent", "muscles", "force", "knee-axis", "planar", "world", "brief", "resume", "anonymous"}
 #: An option of the command with the description of its value: ``--mass KG``, ``--mass <KG>``, ``--mass``.
-_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A-Z_]*(?:[:|=,.][A-Za-z_.]+)*(?![a-z])))?")
+_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A-Z_]*(?:[:|=,.][A-Za-z_.]+)*(?![a-z]))|[ ](?=\d))?")
 
 
 def in_python(text: str) -> str:
