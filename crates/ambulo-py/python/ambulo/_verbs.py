@@ -207,7 +207,7 @@ def compare(
     columns: Sequence[str] | str | None = None,
     start: float | None = None,
     end: float | None = None,
-) -> dict[str, Any]:
+) -> list[dict[str, Any]]:
     """Compare two tables column by column.
 
     Parameters
@@ -225,8 +225,8 @@ def compare(
 
     Returns
     -------
-    dict
-        What ``ambulo compare --json`` prints: the differences of every column.
+    list of dict
+        What ``ambulo compare --json`` prints: the differences of each column.
 
     Raises
     ------
@@ -237,11 +237,11 @@ def compare(
 
     Notes
     -----
-    A difference above `limit` is no error; it is in the returned dict. Columns: docs/OUTPUTS.md.
+    A difference above `limit` is no error; it is in the returned list. Columns: docs/OUTPUTS.md.
     """
     options = {"limit": limit, "columns": listed(columns), "from": start, "to": end}
     with _on_disk(a) as first, _on_disk(b) as second:
-        return dict(_run("compare", [first, second], options, as_json=True))
+        return list(_run("compare", [first, second], options, as_json=True))
 
 
 def report(
