@@ -279,7 +279,11 @@ export interface SessionArgs {
   compare?: string | null;
   /** Your own reference group: norm.json of an earlier run, or a folder with recordings or sessions of healthy subjects, one folder per subject [default: children of Schwartz et al. 2008]. */
   norm?: string | null;
-  /** Write no name, no path and no date into any file. */
+  /** Name of the person on the page [default: as in trials.toml, in the recordings, or the folder]. */
+  name?: string | null;
+  /** Day of the session, as YYYY-MM-DD [default: as in trials.toml or in the recordings]. */
+  date?: string | null;
+  /** Write no name, no path and no date into any file, and no page of a trial. */
   anonymous?: boolean;
   /** Only print which trials were found, with which files. */
   dry_run?: boolean;

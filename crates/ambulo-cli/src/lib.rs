@@ -50,6 +50,20 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
+/// Runs the command with these words, of which the first is the name of the program, and returns what it prints on
+/// standard output.
+///
+/// # Errors
+/// Words that the command refuses, and a command that could not run.
+pub fn printed(words: Vec<OsString>) -> Result<String, Failure> {
+    let names: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let (text, done) = printer::caught(|| execute(Args::try_parse_from(words)?.command));
+    done.map(|_| text).map_err(|error| match error.downcast_ref::<clap::Error>() {
+        Some(refused) => Failure::refused(refused.to_string().trim_start_matches("error: ").trim_end().to_owned()),
+        None => Failure::from(error).in_one_of(names.iter().map(String::as_str)),
+    })
+}
+
 /// Runs a command; without one, prints where to begin.
 fn execute(command: Option<Command>) -> anyhow::Result<Completion> {
     match command {

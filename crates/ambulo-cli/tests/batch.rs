@@ -76,7 +76,7 @@ fn trials(bench: &Workbench, folder: &str) -> Vec<String> {
 fn the_numbers_are_those_of_forces_and_a_broken_recording_is_a_row() {
     let bench = set("batch");
     let run = bench.run(&["batch", "set", "-o", "out"]).done();
-    assert!(run.stdout.contains("5 of 6 trials") && run.stdout.contains("person 1/broken.c3d: "), "{}", run.stdout);
+    assert!(run.stdout.contains("5 of 6 trials") && run.stdout.contains(": person 1/broken.c3d\n"), "{}", run.stdout);
     let trials = ParquetTable::read(&bench.read("out/trials/part-000-00000.parquet")).unwrap();
     let errors = texts(&trials, "error");
     assert_eq!(errors.iter().flatten().count(), 1, "{errors:?}");
@@ -88,6 +88,9 @@ fn the_numbers_are_those_of_forces_and_a_broken_recording_is_a_row() {
     let own: Vec<usize> =
         texts(&frames, "key").iter().enumerate().filter(|(_, key)| **key == keys[0]).map(|(k, _)| k).collect();
     assert_eq!(own.len(), moments.rows());
+    let names = texts(&trials, "trial");
+    let in_frames = texts(&frames, "trial");
+    assert!(own.iter().all(|k| in_frames[*k] == names[0]), "every table has the name of the trial");
     for (name, expected) in moments.columns().filter(|(name, _)| *name != "time") {
         let Some(ColumnValues::Single(found)) = frames.column(name) else { panic!("no column {name}") };
         let largest = expected.iter().fold(1e-3, |most: f64, x| most.max(x.abs()));
@@ -97,6 +100,11 @@ fn the_numbers_are_those_of_forces_and_a_broken_recording_is_a_row() {
     assert_eq!(frames.about("unit of hip_flexion_r_moment"), Some("N.m"));
     let cycles = ParquetTable::read(&bench.read("out/cycles/part-000-00000.parquet")).unwrap();
     assert!(texts(&cycles, "quantity").contains(&Some("knee_angle_moment".to_owned())));
+    bench.write("set/person 1/other.c3d", bench.read("set/person 1/broken.c3d"));
+    let grouped = bench.run(&["batch", "set", "-o", "grouped"]).done().stdout;
+    assert_eq!(grouped.matches("failed").count(), 1, "one line for one reason: {grouped}");
+    assert!(grouped.contains("failed    2 trials: "), "{grouped}");
+    fs::remove_file(bench.folder.join("set/person 1/other.c3d")).unwrap();
     let ranked = bench.run(&["batch", "set", "-o", "ranked", "--check", "--json"]);
     let ranked: serde_json::Value = serde_json::from_str(&ranked.stdout).unwrap();
     assert_eq!(

@@ -45,12 +45,19 @@ fn a_visit_is_one_page_with_the_curves_of_forces_and_a_broken_trial_is_a_row() {
     bench.write("Ann/broken.c3d", "PathFileType");
     let run = bench.run(&["session", "Ann", "-o", "out"]).done();
     assert!(run.stdout.contains("2 of 3 computed") && run.stdout.contains("broken.c3d: "), "{}", run.stdout);
-    let names = ["cycles.csv", "deviations.csv", "session.html", "summary.json", "times_and_distances.csv"];
+    let tables =
+        ["cycles.csv", "deviations.csv", "session.html", "summary.json", "times_and_distances.csv", "trials.csv"];
+    let pages = ["trials/walk0.mot.html", "trials/walk1.mot.html"];
+    let names: Vec<&str> = tables[..5].iter().chain(&pages).chain(&tables[5..]).copied().collect();
     assert_eq!(bench.names("out"), names);
     let page = bench.text("out/session.html");
-    for known in
-        ["default-src 'none'", "Session of Ann", "broken.c3d", "mean-angles-knee_flexion_angle", "Times and distances"]
-    {
+    for known in [
+        "default-src 'none'",
+        "Gait session of Ann",
+        "broken.c3d",
+        "mean-angles-knee_flexion_angle",
+        "Times and distances",
+    ] {
         assert!(page.contains(known), "{known}");
     }
     assert!(!page.contains("<script"));
@@ -94,9 +101,10 @@ fn a_session_compared_with_itself_has_not_changed(bench: &Workbench) {
     for line in &lines[1..] {
         let change: f64 = line[8].parse().unwrap();
         // The table of cycles has six digits.
-        assert!(line.len() == 14 && change.abs() < 1e-5, "{line:?}");
+        assert!(line.len() == 17 && change.abs() < 1e-5 && line[16] != "clear", "{line:?}");
     }
-    assert!(bench.text("again/session.html").contains("Before and after"));
+    assert!(bench.text("again/session.html").contains("The walk is as far from normal as before"));
+    assert_eq!(bench.json("again/summary.json")["changes"]["clear"][0], 0);
     bench.run(&["session", "Ann", "-o", "out", "--compare", "out"]).refused(&["would replace it", "-o"]);
     bench.edit("out/summary.json", "\"session_format\": 1", "\"session_format\": 99");
     bench.run(&["session", "Ann", "-o", "third", "--compare", "out"]).refused(&["layout 99", "reads layout 1"]);
@@ -112,6 +120,61 @@ fn no_byte_depends_on_place_or_threads(bench: &Workbench) {
     for name in bench.names("out") {
         assert_eq!(bench.hash(&format!("out/{name}")), bench.hash(&format!("threads/{name}")), "{name}");
     }
+}
+
+#[test]
+fn name_and_day_are_stated_and_trials_have_pages_and_reasons() {
+    let bench = laboratory("session_named");
+    visit(&bench, "Ann", 2);
+    bench.write("Ann/trials.toml", "[[trial]]\nfiles = \"**\"\nperson = \"Ann B.\"\ndate = \"2026-03-12\"\n");
+    bench.run(&["session", "Ann", "-o", "spring", "--quiet"]).done();
+    let summary = bench.json("spring/summary.json");
+    assert_eq!((&summary["person"], &summary["recorded_on"]), (&"Ann B.".into(), &serde_json::json!(["2026-03-12"])));
+    let words = ["session", "Ann", "-o", "autumn", "--name", "Ann C.", "--date", "2026-09-30", "--compare", "spring"];
+    let run = bench.run(&words).done();
+    assert!(run.stdout.contains("change    Gait profile score") && run.stdout.contains("0 of "), "{}", run.stdout);
+    let page = bench.text("autumn/session.html");
+    let order =
+        ["Gait session of Ann C.", "2026-09-30", "id=\"changes\"", "id=\"normal\"", "id=\"curves\"", "id=\"trials\""];
+    let places: Vec<usize> = order.iter().map(|words| page.find(words).expect(words)).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    assert!(page.contains("What changed since 2026-03-12"));
+    assert_eq!(page.matches("class=\"legend\"").count(), 1, "one legend");
+    for known in ["href=\"trials/walk0.mot.html\"", "download=\"differences.csv\"", "class=\"strip\""] {
+        assert!(page.contains(known), "{known}");
+    }
+    // Every link within the page has its place.
+    for link in page.split("href=\"#").skip(1) {
+        let id = link.split('"').next().unwrap();
+        assert!(page.contains(&format!("id=\"{id}\"")), "{id}");
+    }
+    assert!(bench.exists("autumn/trials/walk1.mot.html"));
+    bench.run(&["session", "Ann", "-o", "x", "--date", "30.9.2026"]).refused(&["--date", "YYYY-MM-DD"]);
+    bench.run(&["session", "Ann", "-o", "x", "--name", "Ann", "--anonymous"]).refused(&["--anonymous"]);
+    bench.edit("Ann/trials.toml", "2026-03-12", "March");
+    bench.run(&["session", "Ann", "-o", "x"]).refused(&["trials.toml", "YYYY-MM-DD"]);
+}
+
+#[test]
+fn a_gait_deviation_index_needs_thirty_people() {
+    let bench = laboratory("session_index");
+    visit(&bench, "people/Ann", 1);
+    visit(&bench, "people/Ben", 2);
+    visit(&bench, "Eve", 1);
+    bench.run(&["session", "Eve", "-o", "first", "--norm", "people", "--quiet"]).done();
+    let why = bench.json("first/summary.json")["profile"]["no_deviation_index"].to_string();
+    assert!(why.contains("at least 30 people") && why.contains("this one has"), "{why}");
+    // A group of thirty people is known by its file.
+    let mut group = bench.json("first/norm.json");
+    group["log_scores"] = serde_json::json!({ "mean": 1.0, "sd": 0.25, "n": 30 });
+    bench.write("norm.json", group.to_string());
+    bench.run(&["session", "Eve", "-o", "second", "--norm", "norm.json", "--quiet"]).done();
+    let profile = &bench.json("second/summary.json")["profile"];
+    let [score, index] = [&profile["right"]["mean"], &profile["deviation_index"]["right"]].map(|x| x.as_f64());
+    if let Some((score, index)) = score.zip(index) {
+        assert!((index - (100.0 - 40.0 * (score.ln() - 1.0))).abs() < 1e-6, "{score} {index}");
+    }
+    assert!(profile["no_deviation_index"].is_null(), "{profile}");
 }
 
 #[test]

@@ -37,6 +37,13 @@ pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| ambulo_cli::command(words))
 }
 
+/// Runs the command, whose first word is the name of the program, and returns what it prints.
+#[pyfunction]
+pub(crate) fn printed(py: Python<'_>, words: Vec<OsString>) -> PyResult<String> {
+    let computed = interruptible(py, Arc::default(), move || ambulo_cli::printed(words))?;
+    computed.map_err(|failure| exception(py, failure))
+}
+
 /// The forces of a recording: options by their names.
 #[pyfunction]
 pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: Files) -> PyResult<Bound<'py, PyAny>> {

@@ -18,7 +18,7 @@ mod _ambulo {
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]
-    use super::calls::{calibrate, command, forces, open, run, version};
+    use super::calls::{calibrate, command, forces, open, printed, run, version};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

@@ -10,6 +10,7 @@ import pytest
 from conftest import command
 
 import ambulo
+from ambulo._errors import in_python
 
 
 def cases(files):
@@ -57,8 +58,9 @@ def test_a_bad_input_has_the_message_of_the_command(there):
         assert done.returncode == 2, (arguments, options)
         with pytest.raises(ambulo.InputError) as refused:
             ambulo.forces(*arguments, **options)
-        assert done.stderr == f"error: {refused.value}\n", (arguments, options)
-        assert (refused.value.hint or "") in done.stderr
+        printed = in_python(done.stderr)
+        assert printed == f"error: {refused.value}\n", (arguments, options)
+        assert (refused.value.hint or "") in printed and "--" not in str(refused.value)
 
 
 @pytest.mark.parametrize(
@@ -79,6 +81,17 @@ def test_a_value_that_is_none_names_its_option(files, options):
     assert str(refused.value).startswith(tuple(options))
     with pytest.raises(ambulo.InputError, match="found the option `predct`"):
         ambulo.batch(files, files / "batch", options={"predct": True})
+
+
+def test_messages_name_arguments_and_not_options():
+    for text, expected in [
+        ("a BVH contains no body mass; expected --mass KG", "a BVH contains no body mass; expected mass="),
+        ("invalid value '75 kg' for '--mass <KG>': found", "invalid value '75 kg' for 'mass=': found"),
+        ("add `--model FILE`, or --predict.", "add `model=`, or predict=True."),
+        ("--from 3 is after --to T", "start=3 is after end="),
+        ("give `--no-ground`; two--way", "give `ground=False`; two--way"),
+    ]:
+        assert in_python(text) == expected
 
 
 def test_an_error_has_its_file_and_line(there):

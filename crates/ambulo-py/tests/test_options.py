@@ -17,7 +17,7 @@ PACKAGE = REPOSITORY / "crates/ambulo-py"
 #: Options that are named otherwise in Python.
 RENAMED = {"from": "start", "to": "end", "plate": "plates", "no_ground": "ground", "no_toe_joint": "toe_joint"}
 #: Options that only a command needs: where it writes, what it prints, and `Result.save(force=)`.
-OF_COMMANDS = {"output", "force", "check", "json", "quiet", "verbose", "help", "dry_run", "save", "states"}
+OF_COMMANDS = {"output", "force", "check", "json", "quiet", "verbose", "help", "dry_run", "save", "states", "write_setting"}
 #: Options that are keys of the argument `muscles`.
 OF_MUSCLES = {"reserves", "emg", "wraps", "pennation", "exponent", "condyles"}
 #: Another word for `mode`.
@@ -31,6 +31,14 @@ VERBS = {
     "walk": ambulo.walk,
     "simulate": ambulo.simulate,
     "sweep": ambulo.sweep,
+    "demo": ambulo.demo,
+    "info": ambulo.info,
+    "events": ambulo.events,
+    "convert": ambulo.convert,
+    "compare": ambulo.compare,
+    "report": ambulo.report,
+    "reproduce": ambulo.reproduce,
+    "tune": ambulo.tune,
 }
 
 
@@ -48,7 +56,7 @@ def test_every_option_of_the_command_is_an_argument(verb, function, tmp_path):
     # A function that writes a folder names it.
     assert verb not in ("batch", "session") or "output" in arguments
     # The first arguments are those that the command takes without an option; no option is invented.
-    positional = {"recording", "trials", "folder", "scene", "source", "output", "options"}
+    positional = {"recording", "trials", "folder", "scene", "source", "output", "options", "path", "a", "b"}
     assert set(arguments) <= options | positional
     assert all(value.default in (None, False, inspect.Parameter.empty) or name in RENAMED.values() for name, value in arguments.items())
     for name in arguments:

@@ -71,7 +71,11 @@ def test_the_clinical_table_is_the_file_of_the_command(result, folder):
 
 
 def test_standard_deviations_exist_for_predicted_forces_only(result, predicted, tmp_path):
-    assert result.sd is None
+    assert not result.has("sd") and predicted.has("sd") and result.has("grf") and result.has("moments.sto")
+    with pytest.raises(ambulo.InputError, match=r"this run has no grf_sd.mot: its ground forces were not predicted; it has .*moments.sto"):
+        result.sd  # noqa: B018
+    with pytest.raises(ambulo.InputError, match=r"muscles=True"):
+        result.muscles  # noqa: B018
     predicted.save(tmp_path / "out")
     names, values = storage(tmp_path / "out/grf_sd.mot")
     assert ["time", *predicted.sd.names] == names
@@ -129,6 +133,19 @@ def test_an_opened_folder_has_the_same_tables(result, folder, tmp_path):
     opened.save(tmp_path / "copy")
     assert (tmp_path / "copy/summary.json").read_bytes() == (folder / "summary.json").read_bytes()
     assert ambulo.open(tmp_path / "copy").page() == (folder / "report.html").read_text()
+
+
+def test_a_table_acts_like_a_mapping(result):
+    moments = result.moments
+    assert moments.keys() == ["time", *moments.names]
+    assert [name for name, _ in moments.items()] == moments.keys()
+    assert same_bits(dict(moments)["knee_angle_r_moment"], moments["knee_angle_r_moment"])
+    assert dict(moments)["time"] is moments.time
+    some = moments[["time", "knee_angle_r_moment", "hip_flexion_l_moment"]]
+    assert some.names == ("knee_angle_r_moment", "hip_flexion_l_moment") and some.units == ("N.m", "N.m")
+    early = moments[:10]
+    assert len(early) == 10 and len(early.time) == 10 and same_bits(early.to_numpy(), moments.values[:10])
+    assert early.rate == pytest.approx(moments.rate)
 
 
 def test_a_table_has_units_rate_and_a_view(result):

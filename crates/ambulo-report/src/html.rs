@@ -67,7 +67,10 @@ pub(super) fn html_table(section: &Section) -> String {
     let is_number =
         |cell: &str| cell == "-" || cell.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit());
     let numeric: Vec<bool> = (0..table.head().len())
-        .map(|column| column > 0 && table.rows().iter().all(|row| is_number(&row[column])))
+        .map(|column| {
+            let filled = || table.rows().iter().map(|row| row[column].as_str()).filter(|cell| !cell.is_empty());
+            column > 0 && filled().next().is_some() && filled().all(is_number)
+        })
         .collect();
     let class = |column: usize| if numeric[column] { " class=\"number\"" } else { "" };
     let mut html = String::from("<div class=\"scroll\"><table>\n<thead><tr>");

@@ -33,9 +33,9 @@ pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
-    ComparedSession, ComputedTrial, ExcludedSummary, ProfileSummary, ReferenceGroup, ReferenceGroupError,
-    RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial, Spread, TrialSummary,
-    session_from_files,
+    ChangeSummary, ChangesSummary, ComparedSession, ComputedTrial, DeviationIndexSummary, ExcludedSummary,
+    ProfileSummary, ReferenceGroup, ReferenceGroupError, RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts,
+    SessionSummary, SessionTrial, Spread, TrialSummary, TrialWarning, session_from_files, session_quantity_label,
 };
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
@@ -51,9 +51,7 @@ pub mod internals {
         Labels, Ticks, number_text as axis_number, range as axis_range, round_labels, ticks as axis_ticks, with_power,
     };
     pub use crate::figures::moving_picture::{moving_picture, moving_speed};
-    pub use crate::figures::session_panels::{
-        LineLook, PanelArea, PanelLine, SessionFigure, SessionPanel, SessionSample,
-    };
+    pub use crate::figures::session_panels::{LineLook, PanelArea, PanelLine, SessionPanel};
     pub use crate::figures::sheet::wrapped;
     pub use crate::figures::svg::{
         Drawing, Stroke, escaped as escaped_xml, short as two_decimals, text_width, without_zeros,

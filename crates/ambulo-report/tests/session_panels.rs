@@ -1,6 +1,6 @@
 //! Scales of the panels of a session.
 
-use ambulo_report::internals::{LineLook, PanelLine, SessionFigure, SessionPanel};
+use ambulo_report::internals::{LineLook, PanelLine, SessionPanel};
 
 fn panel(values: Vec<f64>) -> SessionPanel {
     let look = LineLook { color: "#000000".to_owned(), width: 1.0, opacity: 1.0, dash: Vec::new() };
@@ -14,7 +14,6 @@ fn panel(values: Vec<f64>) -> SessionPanel {
         areas: Vec::new(),
         lines: vec![PanelLine { values, look, role: "cycle" }],
         foot_offs: [Vec::new(), Vec::new()],
-        legend: Vec::new(),
     }
 }
 
@@ -29,14 +28,10 @@ fn a_scale_is_fixed_until_a_curve_leaves_it_and_grows_by_whole_steps() {
     ] {
         assert_eq!(format!("{:?}", panel(values.to_vec()).range()), expected);
     }
-    let figure = |values: Vec<f64>| SessionFigure {
-        name: "test",
-        title: "Angles".to_owned(),
-        caption: String::new(),
-        panels: vec![panel(values)],
-        legend: Vec::new(),
-        notes: Vec::new(),
-    };
-    assert!(!figure(vec![0.0, 60.0]).svg().unwrap().contains("Scale larger"));
-    assert!(figure(vec![0.0, 92.0]).svg().unwrap().contains("Scale larger than usual"), "the figure says so");
+    assert!(!panel(vec![0.0, 60.0]).is_widened());
+    assert!(panel(vec![0.0, 92.0]).is_widened(), "the page says so");
+    let svg = panel(vec![0.0, 60.0]).svg("mean").unwrap();
+    for known in ["id=\"mean-knee_flexion_angle\"", "Knee flexion", "gait cycle (%)", "flexion"] {
+        assert!(svg.contains(known), "{known}");
+    }
 }

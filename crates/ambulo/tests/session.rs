@@ -7,14 +7,16 @@
 //! | a constant offset is its own score; the profile score is the root mean square of nine     | rounding  |
 //! | people drawn from a reference group have the expected score on average                    | 3 % of 400 people |
 //! | the representative cycle is the one in the middle; one that is far away is marked         | exact     |
+//! | a turned knee axis, an offset of the hip and noise are no clear change; another shape is  | exact     |
+//! | the gait deviation index of the mean is 100, a standard deviation away 90                 | rounding  |
 //! | cycles of other activities, of bad data, of turns and with a missed strike have reasons   | exact     |
 
 use ambulo::analysis::activity::ActivityKind;
 use ambulo::model::Side;
 use ambulo::numerics::Random;
 use ambulo::study::session::{
-    CurveStatistics, CycleFacts, CycleForces, NormalCurve, PROFILE, SessionCycle, TrialFacts, deviation, exclusions,
-    pooled, profile, representative, side_difference,
+    Certainty, CurveStatistics, CycleFacts, CycleForces, NormalCurve, PROFILE, PooledCurve, SessionCycle, TrialFacts,
+    curve_change, deviation, deviation_index, exclusions, pooled, profile, representative, side_difference,
 };
 
 /// Angle over the cycle [deg]: a wave about a mean.
@@ -99,6 +101,58 @@ fn scores_are_distances_from_the_mean_of_the_reference_group() {
     // Without one of the angles there is no profile score, but the scores of the others.
     let lacking = profile(&cycles, |quantity| (quantity != "foot_progression_angle").then(norm));
     assert!(lacking.overall.is_none() && lacking.sides.right.is_none() && lacking.variables[knee].right.is_some());
+}
+
+/// Flexion of a knee over the cycle [deg].
+fn flexion() -> Vec<f64> {
+    (0..=100).map(|i| 30.0 - 30.0 * (std::f64::consts::TAU * f64::from(i) / 100.0).cos()).collect()
+}
+
+/// A mean over cycles that vary by a degree.
+fn mean_curve(mean: Vec<f64>, count: usize, forces: Option<CycleForces>) -> PooledCurve {
+    let sd = (count > 1).then(|| vec![1.0; mean.len()]);
+    PooledCurve { statistics: CurveStatistics { mean, sd, count }, forces }
+}
+
+#[test]
+fn a_calibration_explains_an_offset_and_a_turned_knee_axis_but_no_other_shape() {
+    let certainty = |quantity: &str, change: fn(f64) -> f64| {
+        let after: Vec<f64> = flexion().into_iter().map(change).collect();
+        let [before, after] = [vec![0.0; 101], after].map(|mean| mean_curve(mean, 9, None));
+        curve_change(quantity, &before, &after, Some(&flexion())).unwrap().certainty
+    };
+    use Certainty::{Calibration, Clear, Variation};
+    assert_eq!(certainty("hip_rotation_angle", |_| -21.0), Calibration, "a wand");
+    assert_eq!(certainty("subtalar_angle", |_| 22.0), Calibration);
+    assert_eq!(certainty("knee_adduction_angle", |f| 2.0 + 0.2 * f), Calibration, "an axis turned by 12 degrees");
+    assert_eq!(certainty("ankle_inversion_moment", |f| 0.2 * f), Calibration, "a share of the dorsiflexion moment");
+    assert_eq!(certainty("ankle_inversion_moment", |f| 0.2 * f + 3.0), Clear, "a constant moment");
+    // The same changes where no placement of markers explains them.
+    assert_eq!(certainty("hip_rotation_angle", |f| 0.2 * f), Clear);
+    assert_eq!(certainty("knee_flexion_angle", |_| -21.0), Clear);
+    assert_eq!(certainty("knee_adduction_angle", |f| 0.6 * f), Clear, "an axis turned by 37 degrees");
+    assert_eq!(certainty("knee_flexion_angle", |_| 4.0), Calibration);
+    assert_eq!(certainty("knee_flexion_angle", |_| 1.5), Variation);
+}
+
+#[test]
+fn changes_of_predicted_forces_and_of_single_cycles_are_not_sure() {
+    let of = |count: usize, forces: [CycleForces; 2]| {
+        let [before, after] = [0.0, 0.8].map(|x| vec![x; 101]);
+        let before = mean_curve(before, 9, Some(forces[0]));
+        curve_change("hip_flexion_moment", &before, &mean_curve(after, count, Some(forces[1])), None)
+    };
+    use CycleForces::{Measured, Predicted};
+    assert_eq!(of(1, [Measured; 2]).unwrap().certainty, Certainty::SingleCycle);
+    assert_eq!(of(9, [Predicted; 2]).unwrap().certainty, Certainty::Predicted);
+    assert!(of(9, [Measured, Predicted]).is_none(), "different sources are not compared");
+}
+
+#[test]
+fn the_gait_deviation_index_counts_standard_deviations_of_the_logarithm_of_the_score() {
+    let (mean, sd) = (5.5_f64.ln(), 0.25);
+    assert!((deviation_index(5.5, [mean, sd]) - 100.0).abs() < 1e-9);
+    assert!((deviation_index(5.5 * sd.exp(), [mean, sd]) - 90.0).abs() < 1e-9);
 }
 
 #[test]

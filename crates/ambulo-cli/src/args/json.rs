@@ -25,6 +25,11 @@ pub(super) fn jobs<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D:
     number(from, values::jobs)
 }
 
+pub(super) fn day<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    let found: Option<String> = text::optional(from)?;
+    found.map(|day| parsed(&day, values::day)).transpose()
+}
+
 pub(super) fn part<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
     parsed(&Number::deserialize(from)?.to_string(), values::part)
 }

@@ -1,6 +1,6 @@
 //! Options of `ambulo session`.
 
-use super::values::jobs;
+use super::values::{day, jobs};
 use super::{PrintArgs, ReplaceArgs, TrialWords, json};
 use clap::Args as ClapArgs;
 use serde::Deserialize;
@@ -17,13 +17,13 @@ use std::path::PathBuf;
 
 DIR is a visit: the trials of one person, with at most one standing trial. The files of each trial are found by
 the rules of docs/VALIDATE.md, and trials.toml states exceptions: person, age, static, mass, height, model, grf,
-loads, exclude. All trials use one body, calibrated once. Each trial is computed as by `ambulo forces --predict`.
+loads, exclude, date. All trials use one body, calibrated once. Each trial is computed as by `ambulo forces --predict`.
 Forces are measured if force plates measured the whole stance of a cycle, else predicted. Words after `--` are
 options of `ambulo forces` for every trial.
 
-Files written to OUT: session.html (open it with `ambulo view OUT`), summary.json, cycles.csv,
-times_and_distances.csv, deviations.csv; with --compare differences.csv; with --norm norm.json. A trial that
-cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if none.
+Files written to OUT: session.html (open it with `ambulo view OUT`; it needs no other file), summary.json,
+cycles.csv, times_and_distances.csv, deviations.csv, trials.csv; with --compare differences.csv; with --norm
+norm.json; trials/ has the page of each trial. A trial that cannot be computed is a row with its reason. Exit code: 0 if any trial has a cycle that counts, 2 if none.
 docs/SESSION.md has the rules and the definitions.")]
 pub(crate) struct SessionArgs {
     /// The folder with the recordings of the visit; or the files: recordings, standing trial, models, tables of forces.
@@ -41,7 +41,14 @@ pub(crate) struct SessionArgs {
     /// subjects, one folder per subject [default: children of Schwartz et al. 2008].
     #[arg(long, value_name = "FILE|DIR")]
     pub(crate) norm: Option<PathBuf>,
-    /// Write no name, no path and no date into any file.
+    /// Name of the person on the page [default: as in trials.toml, in the recordings, or the folder].
+    #[arg(long, value_name = "NAME", conflicts_with = "anonymous")]
+    pub(crate) name: Option<String>,
+    /// Day of the session, as YYYY-MM-DD [default: as in trials.toml or in the recordings].
+    #[arg(long, value_name = "DAY", value_parser = day, conflicts_with = "anonymous")]
+    #[serde(default, deserialize_with = "json::day")]
+    pub(crate) date: Option<String>,
+    /// Write no name, no path and no date into any file, and no page of a trial.
     #[arg(long)]
     #[serde(default)]
     pub(crate) anonymous: bool,

@@ -51,6 +51,11 @@ pub(super) fn one_of<T: Copy + Send + Sync + 'static>(
         .try_map(move |text| value(text).ok_or("expected one of the words above"))
 }
 
+/// A day, as YYYY-MM-DD.
+pub(super) fn day(text: &str) -> Result<String, String> {
+    ambulo::study::day(text).map_err(|expected| format!("expected {expected}"))
+}
+
 /// A table of segment masses.
 pub(super) fn segments() -> impl TypedValueParser<Value = SegmentTable> {
     PossibleValuesParser::new(SegmentTable::ALL.map(SegmentTable::name)).try_map(|name| name.parse::<SegmentTable>())

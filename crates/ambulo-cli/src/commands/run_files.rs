@@ -92,6 +92,12 @@ impl MotionRun {
         Ok(summary)
     }
 
+    /// The page of the run; `name` is the name of its folder or recording.
+    pub(super) fn page(&self, name: &Path) -> Result<OutputFile<'static>> {
+        let (written, summary) = self.tables_for(&Keep::of_names(&["report".to_owned()]))?;
+        page_of_run(name, &written, RunSummary::Motion(Box::new(summary)))
+    }
+
     /// A table, or another file of the run that is neither a figure nor the page.
     pub(super) fn file(&self, name: &str) -> Result<Option<OutputFile<'_>>> {
         Ok(self.tables_for(&self.keep_tables())?.0.into_iter().find(|file| file.name == name))

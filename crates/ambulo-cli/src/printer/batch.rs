@@ -124,6 +124,32 @@ pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, pr
     }
 }
 
+/// The failures by reason, the most frequent first: errors that differ in their numbers and names of files only have the
+/// same reason, of which the first is shown.
+fn failures<'a>(rows: &[&'a BatchRow]) -> Vec<(&'a str, Vec<&'a str>)> {
+    let mut groups: Vec<(String, &str, Vec<&str>)> = Vec::new();
+    for (row, error) in rows.iter().filter_map(|row| Some((row, row.error.as_deref()?))) {
+        // The message begins with the name of the trial or of its file.
+        let what = error.strip_prefix(row.name.as_str()).map_or(error, |rest| rest.trim_start_matches([':', ' ']));
+        let is_text = |c: &char| !c.is_ascii_digit();
+        let kind: String = what.replace(row.name.as_str(), "").chars().filter(is_text).collect();
+        match groups.iter_mut().find(|(known, ..)| *known == kind) {
+            Some((.., names)) => names.push(&row.name),
+            None => groups.push((kind, what, vec![&row.name])),
+        }
+    }
+    // Groups of the same size keep the order of the ranking.
+    groups.sort_by_key(|(.., names)| std::cmp::Reverse(names.len()));
+    groups.into_iter().map(|(_, what, names)| (what, names)).collect()
+}
+
+/// The first names, and how many more there are.
+fn some(names: &[&str], shown: usize) -> String {
+    let more = names.len().saturating_sub(shown);
+    let list = names.iter().take(shown).copied().collect::<Vec<_>>().join(", ");
+    if more == 0 { list } else { format!("{list} and {more} more") }
+}
+
 /// Prints counts and failures; with `ranked` every trial that is not good, the worst first.
 pub(crate) fn batch(
     rows: &[BatchRow],
@@ -150,15 +176,13 @@ pub(crate) fn batch(
         print_line(&format!("  verdict   {}", words(&counts.verdict)))?;
     }
     let shown = if print.verbose { usize::MAX } else { SHOWN };
+    for (reason, names) in failures(&worst) {
+        print_line(&format!("  failed    {}: {reason}: {}", counted(names.len(), "trial"), some(&names, shown)))?;
+    }
+    let worst: Vec<&BatchRow> = worst.into_iter().filter(|row| row.error.is_none()).collect();
     for row in worst.iter().take(shown) {
-        let (word, why) = match &row.error {
-            Some(error) => ("failed".to_owned(), error.clone()),
-            None => {
-                let states = [&row.quality, &row.verdict].into_iter().flatten().cloned().collect::<Vec<_>>();
-                (states.join(", "), row.reasons.join("; "))
-            }
-        };
-        print_line(&format!("  {word:9} {}: {why}", row.name))?;
+        let states = [&row.quality, &row.verdict].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
+        print_line(&format!("  {states:9} {}: {}", row.name, row.reasons.join("; ")))?;
     }
     if worst.len() > shown {
         print_line(&format!("  and {} more, see --verbose or the table of trials", worst.len() - shown))?;

@@ -37,6 +37,7 @@ use ambulo::gait::machine::{ChangeTable, StateChange, state_table};
 use ambulo::numerics::counted;
 use anyhow::Result;
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
@@ -56,7 +57,31 @@ fn print_json(value: &(impl serde::Serialize + ?Sized)) -> Result<()> {
     print(&text.chars().map(escaped).collect::<String>())
 }
 
+thread_local! {
+    /// The text that a caller reads in place of the terminal.
+    static CAUGHT: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// What `run` prints on standard output from this thread, and its result.
+pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> (String, T) {
+    CAUGHT.set(Some(String::new()));
+    let result = run();
+    (CAUGHT.take().unwrap_or_default(), result)
+}
+
+/// Adds a line to the text of the caller, if there is one.
+fn is_caught(text: &str) -> bool {
+    let add = |caught: &mut String| {
+        caught.push_str(text);
+        caught.push('\n');
+    };
+    CAUGHT.with_borrow_mut(|caught| caught.as_mut().map(add).is_some())
+}
+
 fn print(text: &str) -> Result<()> {
+    if is_caught(text) {
+        return Ok(());
+    }
     match writeln!(stdout(), "{text}") {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(e.into()),
         _ => Ok(()),

@@ -2,7 +2,7 @@
 
 use super::{print_json, print_line};
 use crate::args::PrintArgs;
-use ambulo_report::{SessionSummary, Spread, TrialSummary};
+use ambulo_report::{SessionSummary, Spread, TrialSummary, session_quantity_label};
 use anyhow::Result;
 use std::path::Path;
 
@@ -31,12 +31,9 @@ pub(crate) fn session(summary: &SessionSummary, output: &Path, print: PrintArgs)
         print_line(&format!("  speed     {} m/s", mean(speed, 2)))?;
     }
     print_profile(summary)?;
+    print_changes(summary)?;
     let errors = summary.trials.iter().filter_map(|trial| Some((&trial.trial, trial.error.as_ref()?.clone())));
-    let excluded = summary
-        .excluded
-        .iter()
-        .map(|cycle| (&cycle.trial, format!("{} {}: {}", cycle.side, cycle.cycle, cycle.reason)));
-    let left_out: Vec<(&String, String)> = errors.chain(excluded).collect();
+    let left_out: Vec<(&String, String)> = errors.chain(excluded(summary)).collect();
     let shown = if print.verbose { usize::MAX } else { SHOWN };
     for (name, why) in left_out.iter().take(shown) {
         print_line(&format!("  not       {name}: {why}"))?;
@@ -49,6 +46,46 @@ pub(crate) fn session(summary: &SessionSummary, output: &Path, print: PrintArgs)
     }
     print_line(&format!("  written   {}", output.display()))?;
     print_line(&format!("  next      ambulo view {}", super::quoted(output)))
+}
+
+/// Trials with excluded cycles; cycles with the same reason are one entry.
+fn excluded(summary: &SessionSummary) -> Vec<(&String, String)> {
+    let mut groups: Vec<(&String, &String, usize)> = Vec::new();
+    for cycle in &summary.excluded {
+        match groups.iter_mut().find(|(trial, reason, _)| **trial == cycle.trial && **reason == cycle.reason) {
+            Some((.., count)) => *count += 1,
+            None => groups.push((&cycle.trial, &cycle.reason, 1)),
+        }
+    }
+    let words =
+        |(trial, reason, count)| (trial, format!("{count} cycle{}: {reason}", if count == 1 { "" } else { "s" }));
+    groups.into_iter().map(words).collect()
+}
+
+fn print_changes(summary: &SessionSummary) -> Result<()> {
+    let Some(changes) = &summary.changes else { return Ok(()) };
+    for change in changes.scores.iter().take(1).chain(&changes.largest) {
+        let place = change.at_percent.map_or(String::new(), |percent| format!(" at {percent:.0} %"));
+        let side = match change.side.as_str() {
+            "r" => ", right",
+            "l" => ", left",
+            _ => "",
+        };
+        let digits = if change.unit == "deg" { 1 } else { 2 };
+        print_line(&format!(
+            "  change    {}{side}{place}: {:.digits$} to {:.digits$} {} ({})",
+            session_quantity_label(&change.quantity),
+            change.before,
+            change.after,
+            change.unit,
+            change.words
+        ))?;
+    }
+    let [clear, all] = changes.clear;
+    let explained = changes.calibration.len();
+    print_line(&format!(
+        "  changes   {clear} of {all} curves changed clearly; a new calibration explains the change of {explained} more"
+    ))
 }
 
 fn print_profile(summary: &SessionSummary) -> Result<()> {

@@ -17,7 +17,7 @@ from ambulo._calls import (
     calibrate_person,
     forces,
     model,
-    open,
+    open,  # noqa: A004
     session,
     simulate,
     sweep,
@@ -30,9 +30,11 @@ from ambulo._recording import Recording, coordinates, markers, read
 from ambulo._result import Result
 from ambulo._stream import Stream
 from ambulo._table import Table
+from ambulo._verbs import compare, convert, demo, events, info, report, reproduce, tune, view
 
 __version__: str = _version()
 
+# Without `open`, which would replace the function of Python after `from ambulo import *`.
 __all__ = [
     "AmbuloError",
     "AmbuloWarning",
@@ -48,15 +50,23 @@ __all__ = [
     "batch",
     "calibrate",
     "calibrate_person",
+    "compare",
+    "convert",
     "coordinates",
+    "demo",
+    "events",
     "forces",
+    "info",
     "markers",
     "model",
-    "open",
     "read",
+    "report",
+    "reproduce",
     "session",
     "simulate",
     "sweep",
+    "tune",
     "validate",
+    "view",
     "walk",
 ]

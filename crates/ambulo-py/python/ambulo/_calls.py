@@ -531,6 +531,8 @@ def session(
     options: Mapping[str, Any] | None = None,
     compare: _Path | None = None,
     norm: _Path | None = None,
+    name: str | None = None,
+    date: str | None = None,
     anonymous: bool = False,
     jobs: int | None = None,
     force: bool = False,
@@ -552,6 +554,10 @@ def session(
         An earlier session of the person (its `output`), to compute what changed.
     norm : str or path-like, optional
         Your own reference group: ``norm.json`` of an earlier run, or a folder with recordings or sessions of healthy subjects.
+    name : str, optional
+        Name of the person on the page.
+    date : str, optional
+        Day of the session, as ``"2026-03-12"``.
     anonymous : bool, optional
         Write no name, no path and no date into any file.
     jobs : int, optional
@@ -576,6 +582,7 @@ def session(
     """
     source = [folder] if isinstance(folder, (str, os.PathLike)) else list(folder)
     own = {"source": source, "output": output, "compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs}
+    own |= {"name": name, "date": date}
     return Result(_ambulo.run({"session": {"own": own}}, of_all=dict(options or {}), force=force))
 
 

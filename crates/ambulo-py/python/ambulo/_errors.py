@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 import warnings
 from collections.abc import Iterable
 
@@ -10,7 +11,8 @@ from collections.abc import Iterable
 class AmbuloError(Exception):
     """An input that gives no results, or results that cannot be written.
 
-    The text is the one that the command prints: where, what was found, what was expected and what to do.
+    The text is that of the command, with the arguments of Python in place of its options: where, what was found, what was expected and what to
+    do.
 
     Attributes
     ----------
@@ -35,11 +37,29 @@ class AmbuloWarning(UserWarning):
     """A warning about the data; the results exist, and `Result.findings` lists it too."""
 
 
+#: Options of the command with another form in Python.
+_RENAMED = {"from": "start=", "to": "end=", "plate": "plates=", "no-ground": "ground=False", "no-toe-joint": "toe_joint=False"}
+_SWITCHES = {"predict", "track", "refit", "consistent", "muscles", "force", "knee-axis", "planar", "world", "brief", "resume", "anonymous"}
+#: An option of the command with the description of its value: ``--mass KG``, ``--mass <KG>``, ``--mass``.
+_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A-Z_]*(?:[:|=,.][A-Za-z_.]+)*(?![a-z]))|[ ](?=\d))?")
+
+
+def in_python(text: str) -> str:
+    """Return a message of the command with the arguments of Python: ``mass=`` for ``--mass KG``."""
+
+    def argument(found: re.Match[str]) -> str:
+        name = found[1]
+        form = f"{name.replace('-', '_')}=True" if name in _SWITCHES else f"{name.replace('-', '_')}="
+        return _RENAMED.get(name, form)
+
+    return _OPTION.sub(argument, text)
+
+
 def failure(
     message: str, hint: str | None, file: str | None, line: int | None, system: str | None
 ) -> AmbuloError | OSError:
     """Make the exception of a failed call; `system` is the name of an error of the operating system."""
-    what = message.rstrip()
+    what, hint = in_python(message.rstrip()), None if hint is None else in_python(hint)
     if system is not None:
         number = getattr(errno, system, errno.EIO)
         text = what if hint is None else f"{what} hint: {hint}"

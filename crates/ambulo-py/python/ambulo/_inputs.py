@@ -32,6 +32,10 @@ class Inputs:
             return self._in_memory(name, value._storage())
         if isinstance(value, (bytes, bytearray, memoryview)):
             return self._in_memory(name, bytes(value))
+        if hasattr(value, "read"):
+            return self._in_memory(getattr(value, "name", name), value.read())
+        if hasattr(value, "columns") and hasattr(value, "to_numpy"):
+            return self._in_memory(name, of_frame(value, name))
         return os.fspath(value)
 
     def _in_memory(self, name: str, content: bytes) -> str:
@@ -42,6 +46,18 @@ class Inputs:
     def files(self) -> list[tuple[str, bytes]]:
         """Return the files in memory."""
         return list(self._files.items())
+
+
+def of_frame(frame: Any, name: str) -> bytes:
+    """Return a data frame of pandas or polars with a column ``time`` as the content of a table; angles are in degrees, as in `Table.to_pandas`."""
+    import numpy as np
+
+    names = [str(column) for column in frame.columns]
+    if "time" not in names:
+        raise InputError(f"{name}: found a data frame without the column `time`; expected times [s] and one column per quantity")
+    names.sort(key=lambda column: column != "time")
+    columns = [np.asarray(frame[column], dtype=np.float64) for column in names]
+    return _ambulo.write_table(name, True, names, np.column_stack(columns))
 
 
 def numbers(value: Any) -> Any:

@@ -23,7 +23,6 @@ def clinical_figure(result: Result, names: Sequence[str] | None, over: str) -> F
     import matplotlib.pyplot as plt
 
     table = result.clinical
-    assert table is not None  # noqa: S101  `Result.plot` checks it
     if over not in ("time", "cycle"):
         raise InputError(f"over: found {over!r}; expected 'time' or 'cycle'")
     if names is None:
@@ -90,13 +89,13 @@ def _strides(result: Result, side: str, *, depends_on_forces: bool) -> tuple[lis
 
     Of a curve that depends on forces, only the strides whose stance was measured; without any, those that were predicted.
     """
-    events = result.events
+    events = _table(result, "events")
     if events is None:
         return [], False
     rows = zip(events["side"], events["event"], events["time"], strict=True)
     strikes = [time for of_side, event, time in rows if of_side == side and event == "strike"]
     strides = list(zip(strikes[:-1], strikes[1:], strict=True))
-    stances = result.stances
+    stances = _table(result, "stances")
     if stances is None or not depends_on_forces:
         return strides, False
     listed = zip(stances["side"], stances["start"], stances["end"], stances["source"], strict=True)
@@ -106,6 +105,15 @@ def _strides(result: Result, side: str, *, depends_on_forces: bool) -> tuple[lis
     if measured:
         return measured, False
     return [stride for stride, source in zip(strides, sources, strict=True) if source == "predicted"], True
+
+
+def _table(result: Result, name: str) -> Table | None:
+    """Return a table of the result, or None if the run has none."""
+    try:
+        table: Table | None = getattr(result, name)
+    except InputError:
+        return None
+    return table
 
 
 def _source(stances: Sequence[tuple[float, float, str]], stride: tuple[float, float]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from ambulo import _ambulo
 from ambulo._errors import InputError
@@ -42,6 +42,7 @@ class Recording:
         return os.path.splitext(self.name)[1][1:].lower()
 
     def _markers(self) -> dict[str, Any]:
+        self._has(("c3d", "trc"), "markers")
         if self._content is None:
             self._content = _ambulo.read_markers(self.data, self.name)
         return self._content
@@ -61,12 +62,35 @@ class Recording:
         """Times of the frames [s], shape (frames,)."""
         if self.format in ("c3d", "trc"):
             return self._markers()["times"]
+        if self.format == "bvh":
+            import numpy as np
+
+            frames, step_s = self._skeleton()
+            return np.arange(frames) * step_s
         return self.table["time"]
 
     @property
     def rate(self) -> float | None:
         """Frame rate [Hz]."""
+        if self.format == "bvh":
+            return 1.0 / self._skeleton()[1]
         return self._markers()["rate"] if self.format in ("c3d", "trc") else self.table.rate
+
+    def _skeleton(self) -> tuple[int, float]:
+        """Return the number of frames of a BVH and the time between them [s]."""
+        import re
+
+        text = self.data.decode("ascii", "replace")
+        found = re.search(r"Frames:\s*(\d+)\s+Frame Time:\s*([\d.eE+-]+)", text)
+        if found is None:
+            raise InputError(f"{self.name}: found no `Frames:` and `Frame Time:`; expected them after MOTION")
+        return int(found[1]), float(found[2])
+
+    def _has(self, formats: Sequence[str], what: str) -> None:
+        """Refuse what this kind of file does not have."""
+        if self.format not in formats:
+            words = ", ".join(f".{ending}" for ending in formats)
+            raise InputError(f"{self.name}: a .{self.format} file has no {what}; files that have: {words}")
 
     @property
     def plates(self) -> list[dict[str, Any]]:
@@ -81,6 +105,7 @@ class Recording:
     @property
     def table(self) -> Table:
         """The table of a ``.mot``, ``.sto`` or ``.csv`` file, in the units of the file."""
+        self._has(("mot", "sto", "csv"), "table")
         return Table._of_parts(_ambulo.read_table(self.data, self.name))
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -97,13 +122,13 @@ class Recording:
         return Recording, (self.data, self.name)
 
 
-def read(path: str | os.PathLike[str] | bytes, name: str | None = None) -> Recording:
+def read(path: str | os.PathLike[str] | bytes | BinaryIO, name: str | None = None) -> Recording:
     """Read a recording: markers (``.c3d``, ``.trc``), coordinates or forces (``.mot``, ``.sto``, ``.csv``), a skeleton (``.bvh``).
 
     Parameters
     ----------
-    path : str, path-like or bytes
-        A file, or the content of a file.
+    path : str, path-like, bytes or binary file
+        A file, its content, or an open file such as `io.BytesIO`.
     name : str, optional
         Name of the recording for messages; required for bytes, because its ending is the format.
 
@@ -123,6 +148,9 @@ def read(path: str | os.PathLike[str] | bytes, name: str | None = None) -> Recor
     The content is decoded where it is needed, so errors in it are raised by `forces` and by the attributes of the recording. What is read of each
     format: docs/LABORATORY.md, docs/MOTION_SETS.md, docs/OPENSIM.md.
     """
+    if hasattr(path, "read"):
+        name = getattr(path, "name", None) if name is None else name
+        path = path.read()
     if isinstance(path, (bytes, bytearray, memoryview)):
         if name is None:
             raise InputError("found bytes without a name; expected a name whose ending is the format, such as walk.c3d")

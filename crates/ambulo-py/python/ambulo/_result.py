@@ -16,13 +16,32 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _CLINICAL = "clinical.csv"
+#: Files of attributes with another name.
+_FILES = {"angles": "kinematics", "contact": "reactions_contact", "cop": "grf", "sd": "grf_sd"}
+#: Why a run may not have a table.
+_MISSING = {
+    "kinematics.mot": "it is not the run of a motion of a body",
+    "moments.sto": "it is not the run of a motion of a body",
+    "powers.sto": "it is not the run of a motion of a body",
+    "reactions.sto": "it is not the run of a motion of a body",
+    "muscles.sto": "no muscles were asked for (muscles=True)",
+    "reactions_contact.sto": "no muscles were asked for (muscles=True)",
+    "emg.sto": "the recording has no signal of a known muscle",
+    "grf.mot": "no foot touches the ground, or ground forces were left out",
+    "grf_sd.mot": "its ground forces were not predicted",
+    "cycles.csv": "the motion has no whole gait cycle",
+    "events.csv": "no foot strike or foot off was detected",
+    "stances.csv": "no stance was detected",
+    _CLINICAL: "the body has no legs whose joints have clinical signs",
+    "times_and_distances.csv": "the motion has no stride",
+}
 
 
 class Result:
     """Results of a run: tables, summary, findings and page, the same as in the files that the command writes.
 
-    Tables are computed when they are asked for. A table that the run does not have is None: `sd` without predicted forces, `grf` without
-    contact, `cycles` without a whole gait cycle. Signs and axes: docs/CONVENTIONS.md. Columns: docs/OUTPUTS.md.
+    Tables are computed when they are asked for. A table that the run does not have raises `InputError` with the reason: `sd` without predicted
+    forces, `grf` without contact, `cycles` without a whole gait cycle; `has` asks first. Signs and axes: docs/CONVENTIONS.md. Columns: docs/OUTPUTS.md.
     """
 
     def __init__(self, results: _ambulo.Results, folder: TemporaryDirectory[str] | None = None) -> None:
@@ -43,6 +62,27 @@ class Result:
             return None if parts is None else Table._of_parts(parts, self._results.units(file, parts[2]))
         content = self._results.content(file)
         return None if content is None else Table._of_csv(file.removesuffix(".csv"), content)
+
+    def _needed(self, file: str) -> Table:
+        """Return a table, or raise why the run has none."""
+        table = self._table(file)
+        if table is None:
+            raise InputError(
+                f"this run has no {file}: {_MISSING.get(file, 'its kind of motion has none')}; "
+                f"it has {', '.join(self.tables) or 'no table'}"
+            )
+        return table
+
+    def has(self, name: str) -> bool:
+        """Return whether the run has a table: ``result.has("grf")``.
+
+        Parameters
+        ----------
+        name : str
+            Name of an attribute, or of a file of `tables` with or without its ending.
+        """
+        wanted = _FILES.get(name, name)
+        return any(wanted in (file, file.rsplit(".", 1)[0]) for file in self.tables)
 
     @property
     def tables(self) -> list[str]:
@@ -74,82 +114,80 @@ class Result:
         raise KeyError(f"found {name!r}; expected one of {', '.join(self.tables)}")
 
     @property
-    def angles(self) -> Table | None:
+    def angles(self) -> Table:
         """Coordinates of the body [deg, m], as ``kinematics.mot``."""
-        return self._table("kinematics.mot")
+        return self._needed("kinematics.mot")
 
     @property
-    def moments(self) -> Table | None:
+    def moments(self) -> Table:
         """Generalised forces of the coordinates [N.m, N], as ``moments.sto``."""
-        return self._table("moments.sto")
+        return self._needed("moments.sto")
 
     @property
-    def powers(self) -> Table | None:
+    def powers(self) -> Table:
         """Powers of the generalised forces [W], as ``powers.sto``."""
-        return self._table("powers.sto")
+        return self._needed("powers.sto")
 
     @property
-    def reactions(self) -> Table | None:
+    def reactions(self) -> Table:
         """Force [N], moment [N.m] and centre [m] of every joint in world axes, of the parent on the child, as ``reactions.sto``."""
-        return self._table("reactions.sto")
+        return self._needed("reactions.sto")
 
     @property
-    def muscles(self) -> Table | None:
-        """Activation (0 to 1), force [N] and length [m] of every muscle, and what motors add at each coordinate [N.m, N], as ``muscles.sto``; None unless muscles were asked for."""
-        return self._table("muscles.sto")
+    def muscles(self) -> Table:
+        """Activation (0 to 1), force [N] and length [m] of every muscle, and what motors add at each coordinate [N.m, N], as ``muscles.sto``; only if muscles were asked for."""
+        return self._needed("muscles.sto")
 
     @property
-    def contact(self) -> Table | None:
-        """Loads of hip, knee and ankle with the tensions of the muscles [N, N.m], as ``reactions_contact.sto``; None unless muscles were asked for."""
-        return self._table("reactions_contact.sto")
+    def contact(self) -> Table:
+        """Loads of hip, knee and ankle with the tensions of the muscles [N, N.m], as ``reactions_contact.sto``; only if muscles were asked for."""
+        return self._needed("reactions_contact.sto")
 
     @property
-    def emg(self) -> Table | None:
-        """Envelopes of the electromyograms, as ``emg.sto``; None without a signal of a known muscle."""
-        return self._table("emg.sto")
+    def emg(self) -> Table:
+        """Envelopes of the electromyograms, as ``emg.sto``; only with a signal of a known muscle."""
+        return self._needed("emg.sto")
 
     @property
-    def grf(self) -> Table | None:
+    def grf(self) -> Table:
         """Ground forces on both feet [N], centres of pressure [m] and free moments [N.m] in world axes, as ``grf.mot``."""
-        return self._table("grf.mot")
+        return self._needed("grf.mot")
 
     @property
-    def cop(self) -> Table | None:
+    def cop(self) -> Table:
         """Centres of pressure of both feet in world axes [m]: the columns ``_px``, ``_py``, ``_pz`` of ``grf.mot``; zero while a foot is unloaded."""
         grf = self.grf
-        if grf is None:
-            return None
         return grf.select([name for name in grf.names if name[-2:] in ("px", "py", "pz")])
 
     @property
-    def sd(self) -> Table | None:
-        """Standard deviations of predicted ground forces, as ``grf_sd.mot``; None if forces were measured."""
-        return self._table("grf_sd.mot")
+    def sd(self) -> Table:
+        """Standard deviations of predicted ground forces, as ``grf_sd.mot``; of predicted forces only."""
+        return self._needed("grf_sd.mot")
 
     @property
-    def cycles(self) -> Table | None:
+    def cycles(self) -> Table:
         """Curves over the gait cycle, one row per quantity, side, cycle and percent, as ``cycles.csv``."""
-        return self._table("cycles.csv")
+        return self._needed("cycles.csv")
 
     @property
-    def events(self) -> Table | None:
+    def events(self) -> Table:
         """Foot strikes and foot offs [s], as ``events.csv``."""
-        return self._table("events.csv")
+        return self._needed("events.csv")
 
     @property
-    def stances(self) -> Table | None:
+    def stances(self) -> Table:
         """Stances with the source of their loads (``plate 1``, ``table``, ``predicted``, ``unknown``), as ``stances.csv``."""
-        return self._table("stances.csv")
+        return self._needed("stances.csv")
 
     @property
-    def clinical(self) -> Table | None:
+    def clinical(self) -> Table:
         """Angles [deg], moments [N.m/kg], powers [W/kg] and ground forces [body weights] in clinical signs, as ``clinical.csv``."""
-        return self._table(_CLINICAL)
+        return self._needed(_CLINICAL)
 
     @property
-    def times_and_distances(self) -> Table | None:
+    def times_and_distances(self) -> Table:
         """Speed, cadence, lengths, stance and swing of the strides, as ``times_and_distances.csv``."""
-        return self._table("times_and_distances.csv")
+        return self._needed("times_and_distances.csv")
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -257,8 +295,6 @@ class Result:
         """
         from ambulo._plot import clinical_figure
 
-        if self.clinical is None:
-            raise InputError(f"found results without {_CLINICAL}; expected the results of a motion with legs")
         return clinical_figure(self, names, over)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from ambulo import _ambulo
 
@@ -21,7 +21,8 @@ _SHOWN = 8
 class Table:
     """Columns of equal length with names and units.
 
-    ``table["knee_angle_r"]`` is a column, ``numpy.asarray(table)`` are all numbers. pandas, polars, pyarrow and DuckDB read a table
+    ``table["knee_angle_r"]`` is a column, ``table[["hip_flexion_r", "knee_angle_r"]]`` a table of some columns, ``table[:100]`` one of some
+    rows; ``numpy.asarray(table)`` are all numbers. ``dict(table)`` has the columns with their names, beginning with the time. pandas, polars, pyarrow and DuckDB read a table
     directly, by the Arrow PyCapsule interface.
 
     Attributes
@@ -126,13 +127,40 @@ class Table:
         """Return whether the table has this column."""
         return name in self._columns
 
-    def __getitem__(self, name: str) -> Any:
-        """Return a column: a NumPy array, or a list of texts."""
+    @overload
+    def __getitem__(self, name: str) -> Any: ...
+    @overload
+    def __getitem__(self, name: slice | list[str]) -> Table: ...
+    def __getitem__(self, name: str | slice | list[str]) -> Any:
+        """Return a column (a NumPy array, or a list of texts), a table of some columns, or a table of some rows."""
+        if isinstance(name, slice):
+            columns = [column[name] for column in self._columns.values()]
+            time = None if self.time is None else self.time[name]
+            return Table(self.title, self.names, self.units, columns, time=time, in_degrees=self._in_degrees)
+        if isinstance(name, list):
+            return self.select([each for each in name if each != "time"])
         if name in self._columns:
             return self._columns[name]
         if name == "time" and self.time is not None:
             return self.time
         raise KeyError(f"found {name!r}; expected one of {', '.join(self.names)}")
+
+    def keys(self) -> list[str]:
+        """Return the names of all columns, beginning with ``time`` if the rows are frames."""
+        return [name for name, _, _ in self._with_time()]
+
+    def items(self) -> list[tuple[str, Any]]:
+        """Return names and columns, beginning with the time."""
+        return [(name, column) for name, _, column in self._with_time()]
+
+    def to_numpy(self) -> np.ndarray:
+        """Return all numbers, without the time: `values`.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        return self.values
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         """Return all numbers as an array."""

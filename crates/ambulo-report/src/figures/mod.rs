@@ -20,9 +20,7 @@ pub use gait_figure::gait_figure;
 pub(crate) use moving_picture::{moving_picture, moving_speed};
 pub(crate) use paper_figure::paper_figure;
 pub use scene_figures::SceneCurves;
-pub(crate) use session_panels::{
-    LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionFigure, SessionPanel, SessionSample,
-};
+pub(crate) use session_panels::{LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionPanel};
 pub(crate) use time_figures::{PredictedMotion, prediction_figure, residual_figure};
 
 use ambulo::model::Side;

@@ -1,10 +1,10 @@
 //! Draws curves over the gait cycle on scales that are the same for every session: small multiples for a page.
 
 use super::FigureError;
-use super::axes::{Axes, AxisWords};
+use super::axes::{ABOVE, Axes, AxisWords, BELOW, LEFT};
 use super::cycle_panel::draw_band;
-use super::sheet::{Legend, Sample, Sheet, Slot};
-use super::svg::{Anchor, Drawing, Letters, Stroke};
+use super::sheet::{Sample, Sheet, Slot};
+use super::svg::{Anchor, Drawing, Letters, Stroke, points};
 use crate::style::{Style, style};
 use ambulo::study::session::NormalCurve;
 
@@ -12,8 +12,8 @@ use ambulo::study::session::NormalCurve;
 const TICK: f64 = 0.07;
 /// Steps by which a scale grows where a curve leaves it, as a share of its range.
 const STEP: f64 = 0.1;
-/// Height of the axes [pt].
-const HEIGHT: f64 = 96.0;
+/// Height of the axes [pt]: five rows fit on a printed page.
+const HEIGHT: f64 = 76.0;
 /// A curve that leaves the scale by less, as a share of its range, changes no scale.
 const SLACK: f64 = 0.01;
 
@@ -81,87 +81,27 @@ pub struct SessionPanel {
     pub lines: Vec<PanelLine>,
     /// Foot off [% of the cycle]: the right ones stand on the abscissa, the left ones above them.
     pub foot_offs: [Vec<(f64, LineLook)>; 2],
-    /// Lines above the axes with their meaning.
-    pub legend: Vec<(LineLook, String)>,
 }
 
-/// A figure of panels, three in a row.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SessionFigure {
-    /// Name of the figure in messages.
-    pub name: &'static str,
-    /// Title above the panels.
-    pub title: String,
-    /// Caption below the title.
-    pub caption: String,
-    /// Panels of the figure, in rows.
-    pub panels: Vec<SessionPanel>,
-    /// Symbols with their meaning.
-    pub legend: Vec<(SessionSample, String)>,
-    /// Sentences below the panels.
-    pub notes: Vec<String>,
-}
+/// Width of a panel; the margins at the left and at the right of its axes [pt]: half of the label `100` at the right.
+const WIDTH_MM: f64 = 59.0;
+const MARGINS: [f64; 2] = [2.0, 7.0];
 
-/// The symbol of an entry of a legend.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SessionSample {
-    /// A line.
-    Line(LineLook),
-    /// A vertical mark.
-    Tick(LineLook),
-    /// Colour and opacity.
-    Patch(String, f64),
-}
-
-/// Panels side by side.
-const COLUMNS: usize = 3;
-
-impl SessionFigure {
-    /// The figure as SVG.
+impl SessionPanel {
+    /// The panel as SVG; `figure` comes first in its name.
     ///
     /// # Errors
     /// A style that cannot be read.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        let style = style().map_err(|e| FigureError { name: self.name, reason: e.to_string() })?;
-        let legend = self.legend.iter().map(|(sample, words)| {
-            let sample = match sample {
-                SessionSample::Line(look) => Sample::Line(look.stroke()),
-                SessionSample::Tick(look) => Sample::Tick(look.stroke()),
-                SessionSample::Patch(color, opacity) => Sample::Patch(color, *opacity),
-            };
-            (sample, words.clone())
-        });
-        let count = self.panels.len();
-        let widened = self.panels.iter().filter(|panel| panel.is_widened()).map(|panel| panel.title);
-        let widened: Vec<&str> = widened.collect();
-        let mut notes = self.notes.clone();
-        if !widened.is_empty() {
-            notes.push(format!("Scale larger than usual, because curves leave the usual one: {}.", widened.join(", ")));
-        }
-        let sheet = Sheet {
-            style,
-            title: &self.title,
-            caption: &self.caption,
-            width_mm: style.widths_mm.two_columns,
-            rows: (0..count).step_by(COLUMNS).map(|i| i..(i + COLUMNS).min(count)).collect(),
-            panel_height: HEIGHT,
-            legend: legend.collect(),
-            panel_legends: self.panels.iter().map(SessionPanel::own_legend).collect(),
-            notes,
-            description: self.panels.iter().map(SessionPanel::description).collect::<Vec<_>>().join(" "),
-        };
-        Ok(sheet.draw(|drawing, slot| self.panels[slot.number].draw(drawing, style, slot, self.name)))
-    }
-}
-
-impl SessionPanel {
-    fn own_legend(&self) -> Legend<'_> {
-        self.legend.iter().map(|(look, words)| (Sample::Line(look.stroke()), words.clone())).collect()
+    pub fn svg(&self, figure: &str) -> Result<String, FigureError> {
+        let style = style().map_err(|e| FigureError { name: "session", reason: e.to_string() })?;
+        let mut drawing = Drawing::new(points(WIDTH_MM), &style.font.family);
+        let place = [MARGINS[0] + LEFT, ABOVE, drawing.width() - MARGINS[1], ABOVE + HEIGHT];
+        self.draw(&mut drawing, style, Slot { number: 0, place, named: true, legend_height: 0.0 }, figure);
+        Ok(drawing.finish(ABOVE + HEIGHT + BELOW, self.title, &self.description(), &style.paper.color))
     }
 
     fn description(&self) -> String {
-        let words = self.legend.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>().join(", ");
-        format!("{} ({}, {} positive): {words}.", self.title, self.unit, self.directions[0])
+        format!("{} over the gait cycle ({}, {} positive).", self.title, self.unit, self.directions[0])
     }
 
     /// The usual range, with whole steps more at the ends where a curve leaves it.
@@ -177,7 +117,8 @@ impl SessionPanel {
     }
 
     /// Whether a curve leaves the usual range.
-    fn is_widened(&self) -> bool {
+    #[must_use]
+    pub fn is_widened(&self) -> bool {
         let [low, high] = self.range();
         low < self.scale[0] || high > self.scale[1]
     }
@@ -270,7 +211,7 @@ impl ProfileFigure {
             caption: &self.caption,
             width_mm: style.widths_mm.two_columns,
             rows: std::iter::once(0..1).collect(),
-            panel_height: 1.3 * HEIGHT,
+            panel_height: 1.5 * HEIGHT,
             legend: vec![
                 (Sample::Patch(&style.right.color, 1.0), right.clone()),
                 (Sample::Patch(&style.left.color, 1.0), left.clone()),

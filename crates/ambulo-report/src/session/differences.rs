@@ -1,18 +1,11 @@
-//! Before and after: the changes between two sessions of a person.
-//!
-//!   change(t) = x̄_after(t) - x̄_before(t)
-//!
-//! A change is larger than the variation between cycles where it exceeds two standard deviations of the difference of
-//! the means, √(s_before²/n_before + s_after²/n_after); of single cycles that is not known.
+//! Before and after: the changes between two sessions of a person. Equations: `ambulo::study::session`.
 
-use super::{Norms, Session, SessionQuantity, all};
+use super::{ComparedSession, Norms, Session, SessionQuantity, all};
 use crate::validation::shown;
 use ambulo::model::Side;
-use ambulo::study::session::{CurveStatistics, CycleForces, pooled};
+use ambulo::numerics::{mean, rms};
+use ambulo::study::session::{Certainty, CurveChange, CycleForces, curve_change, mixed_with, pooled};
 use std::fmt::Write;
-
-/// A larger change, in standard deviations of the difference, is more than variation.
-const CLEAR: f64 = 2.0;
 
 /// The change of a quantity of one side.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,49 +15,51 @@ pub(super) struct Change {
     /// The source of the forces, the same in both sessions; `None` for angles.
     pub(super) forces: Option<CycleForces>,
     pub(super) cycles: [usize; 2],
-    /// Root mean square of the change.
-    pub(super) rms: f64,
-    /// The largest change, with its sign, and where it is [% of the cycle].
-    pub(super) largest: f64,
-    pub(super) at_percent: f64,
-    /// Share of the cycle in which the change is larger than the variation between cycles.
-    pub(super) clear: Option<f64>,
+    /// The mean curves before and after.
+    pub(super) means: [Vec<f64>; 2],
+    pub(super) found: CurveChange,
     /// Distance from the mean of the reference group before and after.
     pub(super) from_normal: Option<[f64; 2]>,
+}
+
+impl Change {
+    /// Place of the largest change [% of the cycle].
+    pub(super) fn at_percent(&self) -> f64 {
+        100.0 * self.found.place() as f64 / (self.found.change.len().max(2) - 1) as f64
+    }
+
+    /// The largest change, with its sign.
+    pub(super) fn largest(&self) -> f64 {
+        self.found.change.get(self.found.place()).copied().unwrap_or(f64::NAN)
+    }
 }
 
 /// All changes; quantities whose forces have another source than before are left out.
 pub(super) fn changes(after: &Session, before: &Session, norms: &Norms) -> Vec<Change> {
     let of = |quantity: SessionQuantity, side: Side| {
         let now = pooled(&after.cycles, quantity.id, side)?;
-        let then = pooled(&before.cycles, quantity.id, side).filter(|then| then.forces == now.forces)?;
-        let (a, b) = (&now.statistics, &then.statistics);
-        let change: Vec<f64> = a.mean.iter().zip(&b.mean).map(|(a, b)| a - b).collect();
-        let far = (0..change.len()).max_by(|i, k| change[*i].abs().total_cmp(&change[*k].abs()))?;
-        let square: f64 = change.iter().map(|x| x * x).sum();
+        let then = pooled(&before.cycles, quantity.id, side)?;
+        let mixed = mixed_with(quantity.id).and_then(|other| middle(after, before, (other, side)));
+        let found = curve_change(quantity.id, &then, &now, mixed.as_deref())?;
         let norm = norms.curve(quantity.id);
+        let [then_mean, now_mean] = [then.statistics.mean, now.statistics.mean];
         Some(Change {
             quantity,
             side,
             forces: now.forces,
-            cycles: [b.count, a.count],
-            rms: (square / change.len() as f64).sqrt(),
-            largest: change[far],
-            at_percent: 100.0 * far as f64 / (change.len().max(2) - 1) as f64,
-            clear: clear_share(&change, a, b),
-            from_normal: norm.map(|norm| [norm.score(&b.mean), norm.score(&a.mean)]),
+            cycles: [then.statistics.count, now.statistics.count],
+            from_normal: norm.map(|norm| [norm.score(&then_mean), norm.score(&now_mean)]),
+            means: [then_mean, now_mean],
+            found,
         })
     };
     all().flat_map(|quantity| Side::BOTH.map(|side| of(quantity, side))).flatten().collect()
 }
 
-fn clear_share(change: &[f64], a: &CurveStatistics, b: &CurveStatistics) -> Option<f64> {
-    let (of_a, of_b) = (a.sd.as_ref()?, b.sd.as_ref()?);
-    let is_clear = |i: &usize| {
-        let variance = of_a[*i].powi(2) / a.count as f64 + of_b[*i].powi(2) / b.count as f64;
-        change[*i].abs() > CLEAR * variance.sqrt()
-    };
-    Some((0..change.len()).filter(is_clear).count() as f64 / change.len().max(1) as f64)
+/// Mean of a quantity over both sessions.
+fn middle(after: &Session, before: &Session, (quantity, side): (&str, Side)) -> Option<Vec<f64>> {
+    let of = |session: &Session| Some(pooled(&session.cycles, quantity, side)?.statistics.mean);
+    Some(of(after)?.iter().zip(&of(before)?).map(|(a, b)| mean(&[*a, *b])).collect())
 }
 
 /// A time or distance before and after, in the unit of its table: mean, standard deviation, number.
@@ -75,6 +70,24 @@ pub(super) struct TimeChange {
     pub(super) side: &'static str,
     pub(super) before: [f64; 3],
     pub(super) after: [f64; 3],
+}
+
+impl TimeChange {
+    /// Two standard deviations of the difference of the means; `None` if a session has a single stride.
+    pub(super) fn variation(&self) -> Option<f64> {
+        let square = |[_, sd, n]: [f64; 3]| sd * sd / n;
+        Some(2.0 * (square(self.before) + square(self.after)).sqrt()).filter(|x| x.is_finite())
+    }
+
+    /// How sure the change is.
+    pub(super) fn certainty(&self) -> Certainty {
+        match self.variation() {
+            None => Certainty::SingleCycle,
+            // Values from files have six digits.
+            Some(limit) if (self.after[0] - self.before[0]).abs() > limit.max(1e-5) => Certainty::Clear,
+            Some(_) => Certainty::Variation,
+        }
+    }
 }
 
 /// Times and distances that both sessions have.
@@ -111,37 +124,42 @@ pub(super) fn time_changes(after: &Session, before: &Session) -> Vec<TimeChange>
 }
 
 /// `differences.csv`: a row per quantity and side; curves first, then times and distances.
-pub(super) fn differences_csv(after: &Session, before: &Session, norms: &Norms) -> String {
+pub(super) fn differences_csv(compared: &ComparedSession, before: &Session) -> String {
     let mut text = String::from(
         "quantity,unit,side,forces,n_before,n_after,mean_before,mean_after,change,rms_change,at_percent,clear_percent,\
-         from_normal_before,from_normal_after\n",
+         from_normal_before,from_normal_after,calibration_offset,beyond_calibration_rms,certainty\n",
     );
-    for change in changes(after, before, norms) {
+    for change in &compared.changes {
         let [from_before, from_after] = change.from_normal.unwrap_or([f64::NAN; 2]).map(shown);
+        let CurveChange { change: all, beyond, offset, clear, certainty, .. } = &change.found;
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},,,{},{},{},{},{from_before},{from_after}",
+            "{},{},{},{},{},{},,,{},{},{},{},{from_before},{from_after},{offset},{},{}",
             change.quantity.id,
             change.quantity.wording().unit,
             change.side.letter(),
             change.forces.map_or("", CycleForces::word),
             change.cycles[0],
             change.cycles[1],
-            change.largest,
-            change.rms,
-            change.at_percent,
-            change.clear.map_or(String::new(), |clear| shown(100.0 * clear)),
+            change.largest(),
+            rms(all),
+            change.at_percent(),
+            clear.map_or(String::new(), |clear| shown(100.0 * clear)),
+            rms(beyond),
+            certainty.word(),
         );
     }
-    for TimeChange { quantity, unit, side, before, after } in time_changes(after, before) {
+    for row in time_changes(&compared.session, before) {
+        let TimeChange { quantity, unit, side, before, after } = &row;
         let _ = writeln!(
             text,
-            "{quantity},{unit},{side},,{},{},{},{},{},,,,,",
+            "{quantity},{unit},{side},,{},{},{},{},{},,,,,,,,{}",
             before[2],
             after[2],
             before[0],
             after[0],
-            after[0] - before[0]
+            after[0] - before[0],
+            row.certainty().word(),
         );
     }
     text

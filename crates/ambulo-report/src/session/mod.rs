@@ -8,10 +8,12 @@
 //! | `cycles.csv` | every curve of every cycle |
 //! | `times_and_distances.csv` | means over the strides that count, with normal ranges |
 //! | `deviations.csv` | every quantity against the reference group |
+//! | `trials.csv` | every trial |
 //! | `differences.csv` | before and after, where an earlier session was given |
 //!
 //! Equations and rules: `ambulo::study::session`. Columns: docs/SESSION.md.
 
+mod answer;
 mod differences;
 mod norms;
 mod page;
@@ -21,15 +23,24 @@ mod stance_loads;
 mod summary;
 mod tables;
 mod trial;
+mod walk_strip;
 
 pub use reference_group::{ReferenceGroup, ReferenceGroupError};
 pub(crate) use summary::VariableSummary;
 pub use summary::{
-    ExcludedSummary, ProfileSummary, RepresentativeSummary, SESSION_FORMAT, SessionSummary, Spread, TrialSummary,
+    ChangeSummary, ChangesSummary, DeviationIndexSummary, ExcludedSummary, ProfileSummary, RepresentativeSummary,
+    SESSION_FORMAT, SessionSummary, Spread, TrialSummary, TrialWarning,
 };
 pub use tables::session_from_files;
 pub use trial::{ComputedTrial, SessionTrial};
 
+/// Name of a score, a time, a distance or a curve, for people.
+#[must_use]
+pub fn session_quantity_label(quantity: &str) -> String {
+    page::answer::label(quantity)
+}
+
+use differences::{Change, changes};
 pub(crate) use norms::Norms;
 pub(crate) use quantities::{ANGLES, CONTACT, KINETICS, SessionQuantity, all};
 
@@ -38,8 +49,8 @@ use ambulo::analysis::activity::ActivityKind;
 use ambulo::analysis::{Stride, TimesAndDistances};
 use ambulo::model::{BySide, Side};
 use ambulo::study::session::{
-    CycleFacts, CycleForces, NormalCurve, PROFILE, Representative, SessionCycle, TrialFacts, exclusions, profile,
-    representative,
+    CycleFacts, CycleForces, NormalCurve, PROFILE, Representative, SessionCycle, TrialFacts, VariableScore,
+    deviation_index, exclusions, profile, representative,
 };
 use ambulo_results::{CYCLES, OutputFile, SESSION_PAGE, TIMES_AND_DISTANCES, WalkingSummary};
 
@@ -50,6 +61,8 @@ pub struct Session {
     pub summary: SessionSummary,
     /// Every whole cycle of every trial.
     pub cycles: Vec<SessionCycle>,
+    /// The person over a cycle of the representative trial, as SVG; only of sessions that were computed now.
+    pub figure: Option<String>,
 }
 
 /// Statements of the laboratory about a session.
@@ -73,7 +86,7 @@ impl Session {
         let computed: Vec<(usize, &ComputedTrial)> =
             trials.iter().enumerate().filter_map(|(k, trial)| Some((k, trial.found.as_ref().ok()?))).collect();
         let cycles = cycles(trials.len(), &computed);
-        let mut session = Session { summary: head(facts, trials, &computed), cycles };
+        let mut session = Session { summary: head(facts, trials, &computed), cycles, figure: None };
         session.exclude_other_conventions(&computed);
         let counts = |trial: usize| session.cycles.iter().any(|cycle| cycle.trial == trial && cycle.excluded.is_none());
         let speeds = |of: fn(&ComputedTrial) -> Option<f64>| {
@@ -88,6 +101,9 @@ impl Session {
         session.summary.trials = trials.iter().enumerate().map(|(k, trial)| session.trial_summary(k, trial)).collect();
         session.summary.excluded = session.excluded();
         session.summary.representative = session.representative_summary();
+        let best = session.representative().trial;
+        let shown = computed.iter().find(|(k, _)| best == Some(*k)).or(computed.first());
+        session.figure = shown.and_then(|(_, trial)| trial.strip.clone());
         session
     }
 
@@ -110,7 +126,7 @@ impl Session {
         self.summary.reference.clone_from(&norms.summary);
         self.summary.no_reference.clone_from(&norms.missing);
         self.summary.profile = norms.summary.is_some().then(|| self.profile(&norms));
-        ComparedSession { session: self, norms, earlier: None }
+        ComparedSession { session: self, norms, earlier: None, changes: Vec::new() }
     }
 
     /// Whether most trials are walks.
@@ -182,6 +198,8 @@ impl Session {
                 cycles: count(|_| true),
                 counted: count(|cycle| cycle.excluded.is_none()),
                 measured: count(|cycle| cycle.excluded.is_none() && cycle.forces == CycleForces::Measured),
+                warnings: found.warnings.clone(),
+                page: trial.page.clone(),
                 ..named
             },
         }
@@ -213,20 +231,34 @@ impl Session {
     }
 
     fn profile(&self, norms: &Norms) -> ProfileSummary {
-        let found = profile(&self.cycles, |quantity| norms.curve(quantity).cloned());
-        let variables = PROFILE.iter().enumerate().map(|(q, quantity)| VariableSummary {
-            quantity: (*quantity).to_owned(),
-            right: found.variables[q].right.map(Spread::from),
-            left: found.variables[q].left.map(Spread::from),
-            expected: found.expected[q],
-        });
-        ProfileSummary {
-            right: found.sides.right.map(Spread::from),
-            left: found.sides.left.map(Spread::from),
-            overall: found.overall,
-            expected: found.expected_overall,
-            variables: variables.collect(),
-        }
+        profile_summary(&self.cycles, norms)
+    }
+}
+
+/// Scores of cycles.
+fn profile_summary(cycles: &[SessionCycle], norms: &Norms) -> ProfileSummary {
+    let found = profile(cycles, |quantity| norms.curve(quantity).cloned());
+    let variables = PROFILE.iter().enumerate().map(|(q, quantity)| VariableSummary {
+        quantity: (*quantity).to_owned(),
+        right: found.variables[q].right.map(Spread::from),
+        left: found.variables[q].left.map(Spread::from),
+        expected: found.expected[q],
+    });
+    let scale = norms.index_scale.as_ref();
+    let index = |score: Option<f64>| Some(deviation_index(score?, *scale?.as_ref().ok()?));
+    let mean = |side: Option<VariableScore>| side.map(|score| score.mean);
+    ProfileSummary {
+        right: found.sides.right.map(Spread::from),
+        left: found.sides.left.map(Spread::from),
+        overall: found.overall,
+        expected: found.expected_overall,
+        variables: variables.collect(),
+        deviation_index: scale.filter(|scale| scale.is_ok()).map(|_| DeviationIndexSummary {
+            right: index(mean(found.sides.right)),
+            left: index(mean(found.sides.left)),
+            overall: index(found.overall),
+        }),
+        no_deviation_index: scale.and_then(|scale| scale.clone().err()),
     }
 }
 
@@ -278,6 +310,7 @@ pub struct ComparedSession {
     pub session: Session,
     norms: Norms,
     earlier: Option<Session>,
+    changes: Vec<Change>,
 }
 
 /// A mass that differs by more than this share may belong to another person.
@@ -286,7 +319,7 @@ const OTHER_MASS: f64 = 0.2;
 impl ComparedSession {
     /// Also shows what changed since an earlier session.
     #[must_use]
-    pub fn since(mut self, earlier: Session) -> ComparedSession {
+    pub fn since(mut self, mut earlier: Session, group: Option<&ReferenceGroup>) -> ComparedSession {
         let words = earlier.summary.days().unwrap_or_else(|| "an earlier session".to_owned());
         self.session.summary.compared_with = Some(words);
         if earlier.summary.convention != self.session.summary.convention {
@@ -304,6 +337,12 @@ impl ComparedSession {
                  person, the differences are not those of two visits"
             ));
         }
+        // Each session has the norms of its own speed, so that its scores are those of its own page.
+        let norms =
+            group.map_or_else(|| Norms::children(&earlier.summary), |group| Norms::of_group(group, &earlier.summary));
+        earlier.summary.profile = self.session.summary.profile.as_ref().map(|_| earlier.profile(&norms));
+        self.changes = changes(&self.session, &earlier, &self.norms);
+        self.session.summary.changes = Some(answer::answer(&self, &earlier));
         ComparedSession { earlier: Some(earlier), ..self }
     }
 
@@ -313,15 +352,17 @@ impl ComparedSession {
     /// A style that cannot be read.
     pub fn files(&self) -> Result<Vec<OutputFile<'static>>, FigureError> {
         let mut files = vec![
-            OutputFile::new(SESSION_PAGE, page::page(self)?.into_bytes()),
-            OutputFile::new(CYCLES, tables::cycles_csv(&self.session).into_bytes()),
             OutputFile::new(TIMES_AND_DISTANCES, tables::times_csv(self).into_bytes()),
             OutputFile::new("deviations.csv", tables::deviations_csv(self).into_bytes()),
+            OutputFile::new("trials.csv", tables::trials_csv(&self.session).into_bytes()),
         ];
         if let Some(earlier) = &self.earlier {
-            let text = differences::differences_csv(&self.session, earlier, &self.norms);
+            let text = differences::differences_csv(self, earlier);
             files.push(OutputFile::new("differences.csv", text.into_bytes()));
         }
+        let page = page::page(self, &files)?;
+        files.push(OutputFile::new(CYCLES, tables::cycles_csv(&self.session).into_bytes()));
+        files.push(OutputFile::new(SESSION_PAGE, page.into_bytes()));
         Ok(files)
     }
 

@@ -26,7 +26,13 @@ pub(crate) struct Norms {
     pub(crate) summary: Option<ReferenceSummary>,
     /// Why there is no group.
     pub(crate) missing: Option<String>,
+    /// Mean and standard deviation of ln GPS over the group, or why there is no gait deviation index.
+    pub(crate) index_scale: Option<Result<[f64; 2], String>>,
 }
+
+/// The literature has curves of groups, not the scores of its children.
+const NO_INDEX: &str = "it needs the scores of at least 30 healthy people, which the published curves do not contain: \
+    give an own reference group with `--norm`";
 
 impl Norms {
     pub(crate) fn curve(&self, quantity: &str) -> Option<&NormalCurve> {
@@ -49,7 +55,8 @@ impl Norms {
         else {
             return Norms::none("the walking speed is not known, and normal curves depend on it");
         };
-        let mut norms = Norms { short: "children, mean ± SD".to_owned(), ..Norms::default() };
+        let index_scale = Some(Err(NO_INDEX.to_owned()));
+        let mut norms = Norms { short: "children, mean ± SD".to_owned(), index_scale, ..Norms::default() };
         for quantity in all() {
             if let Some(found) = band(quantity.id, speed.mean, session.convention) {
                 norms.summary.get_or_insert(ReferenceSummary {
@@ -91,6 +98,7 @@ impl Norms {
                 ages_years: group.ages_years,
             }),
             missing: None,
+            index_scale: Some(group.index_scale()),
         }
     }
 }

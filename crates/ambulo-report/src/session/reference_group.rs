@@ -16,7 +16,11 @@ use super::quantities::all;
 use super::summary::Spread;
 use ambulo::analysis::CYCLE_SAMPLES;
 use ambulo::model::Side;
-use ambulo::study::session::{CurveStatistics, CycleForces, NormalCurve, PooledCurve, depends_on_forces, pooled};
+use ambulo::numerics::elementary::ln;
+use ambulo::numerics::mean;
+use ambulo::study::session::{
+    CurveStatistics, CycleForces, NormalCurve, PooledCurve, depends_on_forces, pooled, profile,
+};
 use ambulo_results::{Convention, EXPECTED, is_sound};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -26,6 +30,8 @@ const FORMAT: &str = "ambulo-reference-group";
 const VERSION: u32 = 1;
 /// A standard deviation needs two subjects.
 const FEWEST: usize = 2;
+/// Subjects from whom mean and standard deviation of the scores are known well enough for a gait deviation index.
+const FEWEST_OF_INDEX: usize = 30;
 
 /// Mean and standard deviation between subjects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,6 +53,10 @@ pub struct ReferenceGroup {
     pub(crate) curves: BTreeMap<String, GroupCurve>,
     /// Times and distances by quantity, in the units of `times_and_distances.csv`.
     pub times: BTreeMap<String, Spread>,
+    /// Natural logarithm of the gait profile scores [deg] of the subjects, for the gait deviation index; `null` unless
+    /// two subjects have all nine angles.
+    #[serde(default)]
+    pub log_scores: Option<Spread>,
 }
 
 /// A quantity of a group.
@@ -108,6 +118,7 @@ impl ReferenceGroup {
             let curve = group_curve(&people, quantity.id, quantity.wording().unit)?;
             Some((quantity.id.to_owned(), curve))
         });
+        let curves: BTreeMap<String, GroupCurve> = curves.collect();
         let ages: Option<Vec<f64>> = people.iter().map(|person| person.summary.age_years).collect();
         let speeds = |of: fn(&Session) -> Option<Spread>| {
             range(&people.iter().filter_map(|person| Some(of(person)?.mean)).collect::<Vec<_>>())
@@ -120,8 +131,9 @@ impl ReferenceGroup {
             speed_m_s: speeds(|session| session.summary.speed_m_s),
             speed_dimensionless: speeds(|session| session.summary.speed_dimensionless),
             convention,
-            curves: curves.collect(),
             times: group_times(&people),
+            log_scores: log_scores(&people, &curves),
+            curves,
         })
     }
 
@@ -183,8 +195,18 @@ impl ReferenceGroup {
 
     /// The curve of a quantity.
     pub(crate) fn curve(&self, quantity: &str) -> Option<NormalCurve> {
-        let GroupCurve { mean, sd, .. } = self.curves.get(quantity)?;
-        Some(NormalCurve { mean: mean.clone(), sd: sd.clone() })
+        self.curves.get(quantity).map(GroupCurve::normal)
+    }
+
+    /// Mean and standard deviation of the logarithms of the scores, or why there is no gait deviation index.
+    pub(crate) fn index_scale(&self) -> Result<[f64; 2], String> {
+        let found = self.log_scores.map_or(0, |scores| scores.n);
+        match self.log_scores.and_then(|scores| Some([scores.mean, scores.sd?])) {
+            Some(scale) if found >= FEWEST_OF_INDEX => Ok(scale),
+            _ => Err(format!(
+                "it needs a reference group of at least {FEWEST_OF_INDEX} people with all nine angles; this one has {found}"
+            )),
+        }
     }
 
     /// `Mean ± 1 SD of an own group of 12 people, 8 to 14 years old, at 1.10 to 1.40 m/s.`
@@ -195,6 +217,22 @@ impl ReferenceGroup {
         let speeds = self.speed_m_s.map_or(String::new(), |[low, high]| format!(", at {low:.2} to {high:.2} m/s"));
         format!("Mean ± 1 SD of an own group of {} people{ages}{speeds}.", self.persons)
     }
+}
+
+impl GroupCurve {
+    fn normal(&self) -> NormalCurve {
+        NormalCurve { mean: self.mean.clone(), sd: self.sd.clone() }
+    }
+}
+
+/// ln GPS over the subjects, each with the mean of both sides.
+fn log_scores(people: &[&Session], curves: &BTreeMap<String, GroupCurve>) -> Option<Spread> {
+    let of_person = |person: &&Session| {
+        let sides = profile(&person.cycles, |quantity| curves.get(quantity).map(GroupCurve::normal)).sides;
+        let scores: Vec<f64> = [sides.right, sides.left].into_iter().flatten().map(|score| ln(score.mean)).collect();
+        (!scores.is_empty()).then(|| mean(&scores))
+    };
+    Spread::of(&people.iter().filter_map(of_person).collect::<Vec<_>>())
 }
 
 /// Lowest and highest.

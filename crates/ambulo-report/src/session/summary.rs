@@ -1,6 +1,7 @@
 //! Content of `summary.json` of a session: the person, the trials, times and distances, the profile; read back by later
 //! sessions.
 
+use ambulo::findings::{Code, Finding, Findings, Severity};
 use ambulo::numerics::{mean, sample_deviation};
 use ambulo::study::session::VariableScore;
 use ambulo_results::{Convention, QuantitySummary, WalkingSummary};
@@ -62,6 +63,40 @@ pub struct TrialSummary {
     pub counted: [usize; 2],
     /// Counted cycles with measured forces.
     pub measured: [usize; 2],
+    /// Warnings about data and calibration.
+    #[serde(default)]
+    pub warnings: Vec<TrialWarning>,
+    /// Its own page, relative to that of the session.
+    #[serde(default)]
+    pub page: Option<String>,
+}
+
+/// A warning about a trial.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct TrialWarning {
+    /// Code of the finding (docs/FINDINGS.md).
+    pub code: String,
+    /// Found value, place, and consequence.
+    pub message: String,
+}
+
+impl TrialWarning {
+    /// The warnings of a run, and the assumptions of its calibration.
+    pub(super) fn of(findings: &Findings) -> Vec<TrialWarning> {
+        let is_shown =
+            |finding: &&Finding| finding.severity() == Severity::Warning || finding.code == Code::CalibrationAssumed;
+        let shown = findings.as_slice().iter().filter(is_shown);
+        shown
+            .map(|finding| TrialWarning { code: finding.code.name().to_owned(), message: finding.message.clone() })
+            .collect()
+    }
+
+    /// Whether it is about the body that was calibrated, or about where its markers are.
+    #[must_use]
+    pub fn is_of_calibration(&self) -> bool {
+        let of_markers = ["markers.moved", "markers.misplaced", "markers.not_measured", "markers.held_in_place"];
+        self.code.starts_with("calibration.") || of_markers.contains(&self.code.as_str())
+    }
 }
 
 /// A cycle that is in no mean.
@@ -125,6 +160,69 @@ pub struct ProfileSummary {
     pub expected: Option<f64>,
     /// The angles.
     pub(crate) variables: Vec<VariableSummary>,
+    /// Gait deviation indices; `null` without an own reference group of 30 people.
+    #[serde(default)]
+    pub deviation_index: Option<DeviationIndexSummary>,
+    /// Why there is none.
+    #[serde(default)]
+    pub no_deviation_index: Option<String>,
+}
+
+/// Gait deviation index, from the gait profile score: 100 is the mean of the reference group, 10 less a standard
+/// deviation away.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct DeviationIndexSummary {
+    /// Of the right cycles.
+    pub right: Option<f64>,
+    /// Of the left cycles.
+    pub left: Option<f64>,
+    /// Of both sides.
+    pub overall: Option<f64>,
+}
+
+/// A score, time or curve before and after.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChangeSummary {
+    /// Name of the quantity.
+    pub quantity: String,
+    /// Unit of the numbers.
+    pub unit: String,
+    /// `r`, `l` or `both`.
+    pub side: String,
+    /// Value of the earlier session.
+    pub before: f64,
+    /// Value of this session.
+    pub after: f64,
+    /// Two standard deviations of the change over the cycles; `null` if a session has a single one.
+    pub two_sd: Option<f64>,
+    /// Place of the values [% of the cycle]; `null` for scores, times and distances.
+    pub at_percent: Option<f64>,
+    /// Mean of the reference group, at this place.
+    pub normal: Option<f64>,
+    /// Constant part that a calibration explains; curves only.
+    pub offset: Option<f64>,
+    /// `clear`, `calibration`, `variation`, `predicted` or `single_cycle`.
+    pub certainty: String,
+    /// The same in words.
+    #[serde(skip)]
+    pub words: &'static str,
+}
+
+/// The answer to the question what changed.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChangesSummary {
+    /// Gait profile scores and gait deviation indices.
+    pub scores: Vec<ChangeSummary>,
+    /// The score of both sides after, without the changes that a calibration explains [deg].
+    pub score_without_calibration: Option<f64>,
+    /// Speed, cadence, step lengths.
+    pub times: Vec<ChangeSummary>,
+    /// The largest changes beyond the error of a calibration, at most three, the largest first.
+    pub largest: Vec<ChangeSummary>,
+    /// Changes that a calibration explains.
+    pub calibration: Vec<ChangeSummary>,
+    /// Number of curves that changed clearly, and of all that were compared.
+    pub clear: [usize; 2],
 }
 
 /// `summary.json` of a session.
@@ -187,6 +285,9 @@ pub struct SessionSummary {
     pub profile: Option<ProfileSummary>,
     /// The earlier session that it is compared with: its days, or `an earlier session`.
     pub compared_with: Option<String>,
+    /// What changed since then.
+    #[serde(default)]
+    pub changes: Option<ChangesSummary>,
     /// Warnings about the session as a whole.
     pub warnings: Vec<String>,
     /// SHA-256 of the other files.

@@ -8,7 +8,7 @@ use ambulo::model::Side;
 use ambulo::study::session::{CycleForces, Deviation, SessionCycle, deviation, pooled};
 use ambulo_formats::table::unguarded;
 use ambulo_results::{EXPECTED, SpreadSummary, is_sound};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// The first columns of `cycles.csv`; the others are `percent_0` to `percent_100`.
@@ -80,7 +80,7 @@ pub fn session_from_files(summary: &[u8], cycles: &[u8]) -> Result<Session, Stri
     let summary: SessionSummary = serde_json::from_slice(summary).map_err(|error| format!("summary.json: {error}"))?;
     let text = std::str::from_utf8(cycles).map_err(|_| "cycles.csv: found no UTF-8 text".to_owned())?;
     let cycles = read_cycles(text, &summary).map_err(|error| format!("cycles.csv: {error}"))?;
-    Ok(Session { summary, cycles })
+    Ok(Session { summary, cycles, figure: None })
 }
 
 fn read_cycles(text: &str, summary: &SessionSummary) -> Result<Vec<SessionCycle>, String> {
@@ -198,6 +198,39 @@ pub(super) fn deviations_csv(compared: &ComparedSession) -> String {
                 numbers.map(shown).join(",")
             );
         }
+    }
+    text
+}
+
+/// `trials.csv`: a row per trial.
+pub(super) fn trials_csv(session: &Session) -> String {
+    let mut text = String::from(
+        "trial,recorded_on,activity,speed_m_s,quality,verdict,cycles_r,cycles_l,counted_r,counted_l,measured_r,measured_l,\
+         error,quality_reasons,excluded\n",
+    );
+    for trial in &session.summary.trials {
+        let words = |words: &Option<String>| cell(words.as_deref().unwrap_or_default());
+        let own = session.summary.excluded.iter().filter(|cycle| cycle.trial == trial.trial);
+        let excluded: BTreeSet<&str> = own.map(|cycle| cycle.reason.as_str()).collect();
+        let _ = writeln!(
+            text,
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            cell(&trial.trial),
+            words(&trial.recorded_on),
+            words(&trial.activity),
+            trial.speed_m_s.map_or(String::new(), shown),
+            words(&trial.quality),
+            words(&trial.verdict),
+            trial.cycles[0],
+            trial.cycles[1],
+            trial.counted[0],
+            trial.counted[1],
+            trial.measured[0],
+            trial.measured[1],
+            words(&trial.error),
+            cell(&trial.quality_reasons.join("; ")),
+            cell(&excluded.into_iter().collect::<Vec<_>>().join("; ")),
+        );
     }
     text
 }

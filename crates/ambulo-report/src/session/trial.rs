@@ -2,10 +2,13 @@
 //! cycles count.
 
 use super::quantities::{FOOT_PROGRESSION, all};
+use super::summary::TrialWarning;
+use super::walk_strip::walk_strip;
 use crate::clinical::{ClinicalGroup, ClinicalQuantity};
 use crate::clinical_file::{Curves, angles_of};
 use crate::normative::dimensionless_speed;
 use ambulo::analysis::{Analysis, Cycle, Stride, foot_progression, over_cycle};
+use ambulo::findings::Findings;
 use ambulo::model::Side;
 use ambulo::study::session::{CycleForces, SessionCycle, TrialFacts};
 use ambulo::study::{Outcome, PredictedGround, QualityState};
@@ -22,6 +25,8 @@ pub struct SessionTrial {
     pub name: String,
     /// Day of the recording, as YYYY-MM-DD.
     pub recorded_on: Option<String>,
+    /// Its own page, relative to that of the session.
+    pub page: Option<String>,
     /// Result, or the reason why there is none.
     pub found: Result<ComputedTrial, String>,
 }
@@ -44,6 +49,9 @@ pub struct ComputedTrial {
     pub(super) quality_reasons: Vec<String>,
     pub(super) verdict: &'static str,
     pub(super) convention: ConventionSummary,
+    pub(super) warnings: Vec<TrialWarning>,
+    /// The person over a cycle, as SVG.
+    pub(super) strip: Option<String>,
 }
 
 impl ComputedTrial {
@@ -51,7 +59,7 @@ impl ComputedTrial {
     /// the whole stance of the cycle. Angles of pelvis and hips follow the chosen convention, where it is
     /// possible.
     #[must_use]
-    pub fn of(outcome: &Outcome, chosen: Convention) -> ComputedTrial {
+    pub fn of(outcome: &Outcome, chosen: Convention, findings: &Findings) -> ComputedTrial {
         let Outcome { body, person, analysis, quality, verdict, times_and_distances, activity, .. } = outcome;
         let gravity_m_s2 = body.gravity().norm();
         let (angles, convention) = angles_of(outcome, chosen);
@@ -101,6 +109,8 @@ impl ComputedTrial {
             quality_reasons: quality.reasons.iter().map(|reason| reason.message.clone()).collect(),
             verdict: verdict.state.words(),
             convention,
+            warnings: TrialWarning::of(findings),
+            strip: walk_strip(outcome),
         }
     }
 }

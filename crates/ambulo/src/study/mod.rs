@@ -92,4 +92,4 @@ pub use source::{
 pub use source::{SensorBody, SensorSource};
 pub use standing_trial::StandingTrial;
 #[doc(hidden)]
-pub use trial_list::{StatedTrial, TrialList};
+pub use trial_list::{StatedTrial, TrialList, day};

@@ -162,12 +162,13 @@ fn frames(rows: &[Row<'_>], about: &[(String, String)]) -> ParquetTable {
     let known = || rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
     let count = |found: &Computed| found.frames.first().map_or(0, |column| column.values.len());
     let all: usize = known().map(|(_, found)| count(found)).sum();
-    let (mut keys, mut numbers, mut times) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut keys, mut trials, mut numbers, mut times) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut names: Vec<&str> = Vec::new();
     let mut columns: BTreeMap<&str, (Vec<f32>, &'static str)> = BTreeMap::new();
     for (row, found) in known() {
         let begun = keys.len();
         keys.extend((0..count(found)).map(|_| Some(row.key.hash.clone())));
+        trials.extend((0..count(found)).map(|_| Some(row.trial.name.clone())));
         numbers.extend((0..count(found)).map(|frame| i64::try_from(frame).ok()));
         for column in &found.frames {
             if column.name == "time" {
@@ -185,6 +186,7 @@ fn frames(rows: &[Row<'_>], about: &[(String, String)]) -> ParquetTable {
     let mut out = ParquetTable { columns: Vec::new(), about: with(about, &[("unit of time", "s")]) };
     let column = |name: &str, values| Column { name: name.to_owned(), values };
     out.columns.push(column("key", ColumnValues::Text(keys)));
+    out.columns.push(column("trial", ColumnValues::Text(trials)));
     out.columns.push(column("frame", ColumnValues::Whole(numbers)));
     out.columns.push(column("time", ColumnValues::Double(times)));
     for name in names {
@@ -202,11 +204,12 @@ fn cycles(rows: &[Row<'_>]) -> Vec<Column> {
     const VALUES: usize = 101;
     let all = || {
         let known = rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
-        known.flat_map(|(row, found)| found.cycles.iter().map(move |cycle| (&row.key.hash, cycle)))
+        known.flat_map(|(row, found)| found.cycles.iter().map(move |cycle| (row, cycle)))
     };
     let column = |name: &str, values| Column { name: name.to_owned(), values };
     let mut columns = vec![
-        column("key", ColumnValues::Text(all().map(|(key, _)| Some(key.clone())).collect())),
+        column("key", ColumnValues::Text(all().map(|(row, _)| Some(row.key.hash.clone())).collect())),
+        column("trial", ColumnValues::Text(all().map(|(row, _)| Some(row.trial.name.clone())).collect())),
         column("quantity", ColumnValues::Text(all().map(|(_, row)| Some(row.quantity.clone())).collect())),
         column("side", ColumnValues::Text(all().map(|(_, row)| Some(row.side.letter().to_string())).collect())),
         column("cycle", ColumnValues::Whole(all().map(|(_, row)| i64::try_from(row.cycle).ok()).collect())),
@@ -223,7 +226,7 @@ fn cycles(rows: &[Row<'_>]) -> Vec<Column> {
 fn events(rows: &[Row<'_>]) -> Vec<Column> {
     let all = || {
         let known = rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
-        known.flat_map(|(row, found)| found.events.iter().map(move |event| (&row.key.hash, event)))
+        known.flat_map(|(row, found)| found.events.iter().map(move |event| (row, event)))
     };
     let kind = |kind: EventKind| match kind {
         EventKind::Strike => "strike",
@@ -231,7 +234,8 @@ fn events(rows: &[Row<'_>]) -> Vec<Column> {
     };
     let column = |name: &str, values| Column { name: name.to_owned(), values };
     vec![
-        column("key", ColumnValues::Text(all().map(|(key, _)| Some(key.clone())).collect())),
+        column("key", ColumnValues::Text(all().map(|(row, _)| Some(row.key.hash.clone())).collect())),
+        column("trial", ColumnValues::Text(all().map(|(row, _)| Some(row.trial.name.clone())).collect())),
         column("side", ColumnValues::Text(all().map(|(_, event)| Some(event.side.letter().to_string())).collect())),
         column("event", ColumnValues::Text(all().map(|(_, event)| Some(kind(event.kind).to_owned())).collect())),
         column("time", ColumnValues::Double(all().map(|(_, event)| event.time_s).collect())),

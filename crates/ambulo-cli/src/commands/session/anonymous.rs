@@ -66,6 +66,8 @@ impl Anonymous {
         let earlier = earlier.map(|mut earlier| {
             earlier.summary.person = None;
             earlier.summary.recorded_on.clear();
+            // The names in its sentences are not known here.
+            earlier.summary.trials.iter_mut().for_each(|trial| trial.warnings.clear());
             earlier
         });
         Finished { session, group, earlier }
@@ -83,6 +85,7 @@ impl Anonymous {
             trial.recorded_on = None;
             trial.error = trial.error.as_deref().map(|error| self.text(error));
             trial.quality_reasons.iter_mut().for_each(|reason| *reason = self.text(reason));
+            trial.warnings.iter_mut().for_each(|warning| warning.message = self.text(&warning.message));
         }
         for cycle in &mut summary.excluded {
             cycle.trial = self.text(&cycle.trial);

@@ -3,6 +3,7 @@
 mod anonymous;
 mod one_body;
 mod other_sessions;
+mod trial_pages;
 mod visit;
 
 use super::run_files::MotionRun;
@@ -50,16 +51,17 @@ pub(crate) fn compute(args: &SessionArgs, of_trials: &TrialWords, caller: &Calle
     let outputs = of_trials.outputs.clone();
     let computing = Computing { job, outputs, threads, print: args.print, caller };
     let group = args.norm.as_deref().map(|norm| other_sessions::group(norm, &computing)).transpose()?;
-    let person = computing.person(&root, &plan, &trials)?;
+    let mut person = computing.person(&root, &plan, &trials, Stated::of(args))?;
     if !person.session.has_cycles() {
         bail!("{}", nothing_counts(&root, &person.session));
     }
+    let pages = std::mem::take(&mut person.pages);
     let finished = finished(args, person.session, Inputs { plan: &plan, recordings, group, earlier });
     let finished = match args.anonymous {
         true => Anonymous::of(&root, &plan, &person.names, &person.models).applied(finished),
         false => finished,
     };
-    let summary = save(args, &options(args, of_trials), &target, &plan, finished)?;
+    let summary = save(args, (&options(args, of_trials), pages), &target, &plan, finished)?;
     printer::session(&summary, &args.output, args.print)?;
     Ok(Completion::Passed)
 }
@@ -75,16 +77,32 @@ struct Computing<'a> {
     caller: &'a Caller,
 }
 
-/// A session of one person, and the names in the recordings and of models from files.
+/// A session of one person, the names in the recordings and of models from files, and the pages of the trials.
 struct PersonSession {
     session: Session,
     names: Vec<String>,
     models: Vec<String>,
+    pages: Vec<OutputFile<'static>>,
+}
+
+/// What the user states about a session.
+#[derive(Debug, Clone, Default)]
+struct Stated {
+    name: Option<String>,
+    date: Option<String>,
+    /// Whether the trials get pages.
+    has_pages: bool,
+}
+
+impl Stated {
+    fn of(args: &SessionArgs) -> Stated {
+        Stated { name: args.name.clone(), date: args.date.clone(), has_pages: !args.anonymous }
+    }
 }
 
 impl Computing<'_> {
     /// Computes the session of one person.
-    fn person(&self, root: &Path, plan: &Plan, trials: &[&PlannedTrial]) -> Result<PersonSession> {
+    fn person(&self, root: &Path, plan: &Plan, trials: &[&PlannedTrial], own: Stated) -> Result<PersonSession> {
         visit::check_stated(root, trials)?;
         visit::check_standing(root, plan, trials)?;
         let Computing { job, outputs, threads, caller, .. } = self;
@@ -104,14 +122,28 @@ impl Computing<'_> {
         visit::check_names(root, &named)?;
         let of_file = trials.iter().zip(&computed.runs).filter(|(trial, _)| trial.files.model.is_some());
         let models = of_file.filter_map(|(_, run)| Some(run.as_ref().ok()?.outcome.body.name().to_owned())).collect();
-        let of_run = |(trial, run): (&&PlannedTrial, &Result<MotionRun, String>)| SessionTrial {
-            name: trial.name.clone(),
-            recorded_on: run.as_ref().ok().and_then(|run| run.input.recorded_on.clone()),
-            found: run.as_ref().map(|run| ComputedTrial::of(&run.outcome, run.convention)).map_err(Clone::clone),
+        let pages = match own.has_pages {
+            true => trial_pages::trial_pages(trials, &computed.runs, *threads),
+            false => trials.iter().map(|_| None).collect(),
         };
-        let found: Vec<SessionTrial> = trials.iter().zip(&computed.runs).map(of_run).collect();
+        let of_run = |((trial, run), page): ((&&PlannedTrial, &Result<MotionRun, String>), &Option<OutputFile<'_>>)| {
+            let in_file = run.as_ref().ok().and_then(|run| run.input.recorded_on.clone());
+            SessionTrial {
+                name: trial.name.clone(),
+                recorded_on: own.date.clone().or_else(|| trial.stated.recorded_on.clone()).or(in_file),
+                page: page.as_ref().map(|page| page.name.clone()),
+                found: run
+                    .as_ref()
+                    .map(|run| ComputedTrial::of(&run.outcome, run.convention, &run.findings))
+                    .map_err(Clone::clone),
+            }
+        };
+        let found: Vec<SessionTrial> = trials.iter().zip(&computed.runs).zip(&pages).map(of_run).collect();
+        let stated = trials.iter().find_map(|trial| trial.stated.person.clone());
+        let in_file = named.first().map(|(_, name)| name.clone());
+        let of_folder = || trials.first().map(|trial| trial.person.clone());
         let facts = SessionFacts {
-            person: trials.first().map(|trial| trial.person.clone()),
+            person: own.name.or(stated).or(in_file).or_else(of_folder),
             age_years: trials.iter().find_map(|trial| trial.stated.age_years),
             body: computed.body,
         };
@@ -119,6 +151,7 @@ impl Computing<'_> {
             session: Session::pooled(facts, &found),
             names: named.into_iter().map(|(_, name)| name).collect(),
             models,
+            pages: pages.into_iter().flatten().collect(),
         })
     }
 }
@@ -152,7 +185,7 @@ fn finished(args: &SessionArgs, mut session: Session, inputs: Inputs<'_>) -> Fin
 /// Writes all files; returns the summary.
 fn save(
     args: &SessionArgs,
-    options: &str,
+    (options, pages): (&str, Vec<OutputFile<'static>>),
     target: &ResultTarget,
     plan: &Plan,
     finished: Finished,
@@ -160,9 +193,10 @@ fn save(
     let Finished { session, group, earlier } = finished;
     let mut compared: ComparedSession = session.compared_with_norm(group.as_ref());
     if let Some(earlier) = earlier {
-        compared = compared.since(earlier);
+        compared = compared.since(earlier, group.as_ref());
     }
     let mut written = compared.files()?;
+    written.extend(pages);
     if let Some(group) = &group {
         written.push(OutputFile::new(REFERENCE_GROUP, group.to_json()?));
     }

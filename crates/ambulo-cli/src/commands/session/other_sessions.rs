@@ -1,7 +1,7 @@
 //! Sessions that were computed before: the session to compare with, sessions of a reference group, and one that lies
 //! where this one is to be written.
 
-use super::{Computing, visit};
+use super::{Computing, Stated, visit};
 use crate::args::{Existing, SessionArgs};
 use crate::commands::result_folder::ResultFolder;
 use crate::record::Record;
@@ -115,7 +115,7 @@ fn recorded_people(folder: &Path, computing: &Computing<'_>) -> Result<Vec<Sessi
     let mut people = Vec::new();
     for name in names {
         let trials: Vec<&PlannedTrial> = plan.trials.iter().filter(|trial| trial.person == name).collect();
-        let found = computing.person(folder, &plan, &trials)?;
+        let found = computing.person(folder, &plan, &trials, Stated::default())?;
         if !found.session.has_cycles() {
             printer::progress(
                 &format!("{name}: no trial has a cycle that counts; left out of the reference group"),

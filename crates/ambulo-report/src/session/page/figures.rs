@@ -1,15 +1,17 @@
-//! The figures of the page: all cycles, means, representative cycles, the profile, before and after.
+//! The curves of the page: small panels in a grid, with one legend for all of them.
 
-use super::super::{ANGLES, CONTACT, ComparedSession, KINETICS, Session, SessionQuantity};
-use crate::figures::{
-    LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionFigure, SessionPanel, SessionSample,
-};
-use crate::style::{Color, Style};
+use super::super::{ANGLES, CONTACT, ComparedSession, KINETICS, Session, SessionQuantity, Spread};
+use super::legend::Legend;
+use crate::figures::{FigureError, LineLook, PanelArea, PanelLine, ProfileBars, ProfileFigure, SessionPanel};
+use crate::html::escaped;
+use crate::style::Style;
 use ambulo::model::Side;
 use ambulo::study::session::{CycleForces, PooledCurve, SessionCycle, depends_on_forces, pooled};
+use std::fmt::Write;
 
-/// Width of the line of one cycle [pt].
-const CYCLE_WIDTH: f64 = 0.7;
+/// Width of the line of one cycle [pt], and its opacity.
+const CYCLE_WIDTH: f64 = 0.5;
+const CYCLE_OPACITY: f64 = 0.45;
 /// Dots of a line of predicted forces, in points.
 const DOTTED: [f64; 2] = [0.9, 1.3];
 
@@ -25,11 +27,11 @@ impl Part {
     pub(super) const ALL: [Part; 3] = [Part::Angles, Part::Kinetics, Part::Contact];
 
     fn words(self) -> &'static str {
-        match self {
-            Part::Angles => "Joint angles",
-            Part::Kinetics => "Joint moments, powers and ground forces",
-            Part::Contact => "Joint contact loads",
-        }
+        self.of(["Joint angles", "Joint moments, powers and ground forces", "Joint contact loads"])
+    }
+
+    fn id(self) -> &'static str {
+        self.of(["angles", "kinetics", "contact"])
     }
 
     fn of<T>(self, [angles, kinetics, contact]: [T; 3]) -> T {
@@ -47,7 +49,7 @@ impl Part {
     }
 }
 
-/// Draws the figures of a session.
+/// Draws the panels of a session.
 pub(super) struct Figures<'a> {
     pub(super) compared: &'a ComparedSession,
     pub(super) style: &'a Style,
@@ -65,44 +67,31 @@ impl Figures<'_> {
             id: quantity.id,
             title: words.title,
             unit: words.unit,
-            directions: words.directions,
+            directions: words.directions.map(short),
             scale: quantity.scale,
             band: self.compared.norm(quantity.id).cloned(),
             areas: Vec::new(),
             lines: Vec::new(),
             foot_offs: [Vec::new(), Vec::new()],
-            legend: Vec::new(),
         }
-    }
-
-    fn figure(
-        &self,
-        name: &'static str,
-        title: String,
-        caption: String,
-        panels: Vec<SessionPanel>,
-    ) -> Option<SessionFigure> {
-        let mut legend = Vec::new();
-        if panels.iter().any(|panel| panel.band.is_some()) {
-            let band = SessionSample::Patch(self.style.band.color.clone(), self.style.band.opacity);
-            legend.push((band, self.compared.norms.short.clone()));
-        }
-        let empty = panels.iter().all(|panel| panel.lines.is_empty());
-        (!empty).then(|| SessionFigure { name, title, caption, panels, legend, notes: Vec::new() })
     }
 
     /// The line of a mean: the left one has dashes.
     fn mean_look(&self, side: Side) -> LineLook {
         let line = self.style.side(side);
+        self.thick(&line.color, &line.dash)
+    }
+
+    fn thick(&self, color: &str, dash: &[f64]) -> LineLook {
         let width = self.style.lines_pt.mean;
-        let dash = line.dash.iter().map(|widths| widths * width).collect();
-        LineLook { color: line.color.clone(), width, opacity: 1.0, dash }
+        let dash = dash.iter().map(|widths| widths * width).collect();
+        LineLook { color: color.to_owned(), width, opacity: 1.0, dash }
     }
 
     /// The line of a cycle: dots where its forces are predicted.
     fn cycle_look(&self, side: Side, is_predicted: bool) -> LineLook {
         let dash = if is_predicted { DOTTED.to_vec() } else { Vec::new() };
-        LineLook { color: self.style.side(side).color.clone(), width: CYCLE_WIDTH, opacity: 0.75, dash }
+        LineLook { color: self.style.side(side).color.clone(), width: CYCLE_WIDTH, opacity: CYCLE_OPACITY, dash }
     }
 
     fn tick_look(&self, side: Side) -> LineLook {
@@ -110,143 +99,117 @@ impl Figures<'_> {
         LineLook { color: self.style.side(side).color.clone(), width, opacity: 0.7, dash: Vec::new() }
     }
 
-    fn foot_offs(&self, is_shown: impl Fn(usize, &SessionCycle) -> bool) -> [Vec<(f64, LineLook)>; 2] {
+    /// The line of the earlier session (0) and of this one (1).
+    fn session_look(&self, k: usize) -> LineLook {
+        let line = self.style.sessions.get(k).unwrap_or(&self.style.right);
+        self.thick(&line.color, &line.dash)
+    }
+
+    /// The one legend of all panels.
+    pub(super) fn legend(&self) -> String {
+        let has_predicted = self.session().cycles.iter().any(|cycle| cycle.forces == CycleForces::Predicted);
+        let mut legend = Legend::default();
+        legend.line(&self.mean_look(Side::Right), "right, mean");
+        legend.line(&self.mean_look(Side::Left), "left, mean");
+        legend.line(&self.cycle_look(Side::Right, false), "a cycle");
+        if has_predicted {
+            legend.line(&self.cycle_look(Side::Right, true), "a cycle with predicted forces");
+        }
+        if self.compared.earlier.is_some() {
+            legend.line(&self.session_look(0), "before, mean");
+            legend.line(&self.session_look(1), "after, mean");
+        }
+        legend.patch(&self.style.right.color, self.style.uncertainty_opacity, "± 1 standard deviation of the cycles");
+        legend.tick(&self.tick_look(Side::Right), "foot off");
+        if !self.compared.norms.short.is_empty() {
+            legend.patch(&self.style.band.color, self.style.band.opacity, &self.compared.norms.short);
+        }
+        legend.html()
+    }
+
+    fn foot_offs(&self) -> [Vec<(f64, LineLook)>; 2] {
         Side::BOTH.map(|side| {
-            let own =
-                self.session().cycles.iter().enumerate().filter(|(k, cycle)| cycle.side == side && is_shown(*k, cycle));
-            own.filter_map(|(_, cycle)| Some((cycle.foot_off_percent?, self.tick_look(side)))).collect()
+            let own = self.session().cycles.iter().filter(|cycle| cycle.side == side && cycle.excluded.is_none());
+            own.filter_map(|cycle| Some((cycle.foot_off_percent?, self.tick_look(side)))).collect()
         })
     }
 
-    fn with_sides(&self, figure: SessionFigure, part: Part) -> SessionFigure {
-        let mut legend = vec![
-            (SessionSample::Line(self.cycle_look(Side::Right, false)), "right".to_owned()),
-            (SessionSample::Line(self.cycle_look(Side::Left, false)), "left".to_owned()),
-        ];
-        if part != Part::Angles {
-            let has_predicted = self.session().cycles.iter().any(|cycle| cycle.forces == CycleForces::Predicted);
-            let dotted = (SessionSample::Line(self.cycle_look(Side::Right, true)), "predicted forces".to_owned());
-            legend.extend(has_predicted.then_some(dotted));
-        }
-        legend.push((SessionSample::Tick(self.tick_look(Side::Right)), "foot off".to_owned()));
-        legend.extend(figure.legend);
-        SessionFigure { legend, ..figure }
-    }
-
-    /// Every cycle that counts, one line each.
-    pub(super) fn consistency(&self, part: Part) -> Option<SessionFigure> {
-        let counts = |cycle: &SessionCycle| cycle.excluded.is_none();
-        let panels = part.quantities(self.compared).into_iter().map(|quantity| {
-            let own = self.session().cycles.iter().filter(|cycle| counts(cycle));
-            let line = |cycle: &SessionCycle| {
-                let dotted = depends_on_forces(quantity.id) && cycle.forces == CycleForces::Predicted;
-                let values = cycle.curves.get(quantity.id)?.clone();
-                Some(PanelLine { values, look: self.cycle_look(cycle.side, dotted), role: "cycle" })
-            };
-            SessionPanel {
-                lines: own.filter_map(line).collect(),
-                foot_offs: self.foot_offs(|_, cycle| counts(cycle)),
-                ..self.panel(quantity)
-            }
-        });
-        let name = part.of(["all-angles", "all-kinetics", "all-contact"]);
-        let title = format!("{}: all cycles", part.words());
-        let figure = self.figure(name, title, self.caption(), panels.collect())?;
-        Some(self.with_sides(figure, part))
-    }
-
-    /// Mean and standard deviation of each side.
-    pub(super) fn means(&self, part: Part) -> Option<SessionFigure> {
+    /// Every cycle that counts as a thin line, with the mean and standard deviation of each side.
+    pub(super) fn means(&self, part: Part) -> Result<String, FigureError> {
+        let mut counts = Counts::default();
         let panels = part.quantities(self.compared).into_iter().map(|quantity| {
             let mut panel = self.panel(quantity);
+            panel.foot_offs = self.foot_offs();
             for side in Side::BOTH {
                 let Some(found) = pooled(&self.session().cycles, quantity.id, side) else { continue };
+                counts.add(side.to_string(), &found);
                 let look = self.mean_look(side);
                 panel.areas.extend(area(&found, &look.color, self.style.uncertainty_opacity));
-                panel.legend.push((look.clone(), counted(side, &found)));
+                panel.lines.extend(self.cycles_of(quantity, side));
                 panel.lines.push(PanelLine { values: found.statistics.mean, look, role: "mean" });
             }
             panel
         });
-        let name = part.of(["mean-angles", "mean-kinetics", "mean-contact"]);
-        let title = format!("{}: mean ± standard deviation", part.words());
-        self.figure(name, title, self.caption(), panels.collect())
+        let panels: Vec<SessionPanel> = panels.collect();
+        grid(&Grid { id: &format!("mean-{}", part.id()), title: part.words(), note: &counts.words() }, &panels)
+    }
+
+    fn cycles_of(&self, quantity: SessionQuantity, side: Side) -> Vec<PanelLine> {
+        let own = self.session().cycles.iter().filter(|cycle| cycle.side == side && cycle.excluded.is_none());
+        let line = |cycle: &SessionCycle| {
+            let dotted = depends_on_forces(quantity.id) && cycle.forces == CycleForces::Predicted;
+            let values = cycle.curves.get(quantity.id)?.clone();
+            Some(PanelLine { values, look: self.cycle_look(cycle.side, dotted), role: "cycle" })
+        };
+        own.filter_map(line).collect()
     }
 
     /// The most representative cycle of each side.
-    pub(super) fn representative(&self, part: Part) -> Option<SessionFigure> {
+    pub(super) fn representative(&self, part: Part) -> Result<String, FigureError> {
         let found = self.session().representative();
-        let is_best = |k: usize| Side::BOTH.iter().any(|side| found.cycles[*side] == Some(k));
         let panels = part.quantities(self.compared).into_iter().map(|quantity| {
             let mut panel = self.panel(quantity);
             for (side, best) in found.cycles.iter() {
-                let Some(cycle) = best.map(|k| &self.session().cycles[k]) else { continue };
-                let Some(values) = cycle.curves.get(quantity.id).cloned() else { continue };
+                let values = best.and_then(|k| self.session().cycles[k].curves.get(quantity.id).cloned());
                 let look = self.mean_look(side);
-                if depends_on_forces(quantity.id) {
-                    panel.legend.push((look.clone(), format!("{side}, {}", cycle.forces.word())));
-                }
-                panel.lines.push(PanelLine { values, look, role: "representative" });
+                panel.lines.extend(values.map(|values| PanelLine { values, look, role: "representative" }));
             }
-            SessionPanel { foot_offs: self.foot_offs(|k, _| is_best(k)), ..panel }
+            panel
         });
         let named = |side: Side| {
             let cycle = &self.session().cycles[found.cycles[side]?];
-            Some(format!("{side}: {}, cycle {}", self.session().name(cycle.trial), cycle.number))
+            let forces = if part == Part::Angles { String::new() } else { format!(", forces {}", cycle.forces.word()) };
+            Some(format!("{side}: {}, cycle {}{forces}", self.session().name(cycle.trial), cycle.number))
         };
-        let caption = Side::BOTH.into_iter().filter_map(named).collect::<Vec<_>>().join("; ");
-        let name = part.of(["representative-angles", "representative-kinetics", "representative-contact"]);
-        let title = format!("{}: representative cycles", part.words());
-        let figure = self.figure(name, title, caption, panels.collect())?;
-        let mut legend: Vec<(SessionSample, String)> =
-            Side::BOTH.map(|side| (SessionSample::Line(self.mean_look(side)), side.to_string())).to_vec();
-        legend.extend(figure.legend);
-        Some(SessionFigure { legend, ..figure })
+        let note = Side::BOTH.into_iter().filter_map(named).collect::<Vec<_>>().join("; ");
+        let panels: Vec<SessionPanel> = panels.collect();
+        grid(&Grid { id: &format!("representative-{}", part.id()), title: part.words(), note: &note }, &panels)
     }
 
     /// Means of one side before and after.
-    pub(super) fn change(&self, part: Part, side: Side) -> Option<SessionFigure> {
-        let before = self.compared.earlier.as_ref()?;
+    pub(super) fn change(&self, part: Part, side: Side) -> Result<String, FigureError> {
+        let Some(before) = self.compared.earlier.as_ref() else { return Ok(String::new()) };
+        let mut counts = Counts::default();
         let panels = part.quantities(self.compared).into_iter().map(|quantity| {
             let mut panel = self.panel(quantity);
             for (k, (session, words)) in [(before, "before"), (self.session(), "after")].into_iter().enumerate() {
                 let Some(found) = pooled(&session.cycles, quantity.id, side) else { continue };
+                counts.add(words.to_owned(), &found);
                 let look = self.session_look(k);
                 panel.areas.extend(area(&found, &look.color, self.style.uncertainty_opacity));
-                let source = found.forces.map_or(String::new(), |forces| format!(", {}", forces.word()));
-                panel.legend.push((look.clone(), format!("{words}, {} cycles{source}", found.statistics.count)));
                 panel.lines.push(PanelLine { values: found.statistics.mean, look, role: words });
             }
             panel
         });
-        let name = match (part, side) {
-            (Part::Angles, Side::Right) => "change-angles-right",
-            (Part::Angles, Side::Left) => "change-angles-left",
-            (Part::Kinetics, Side::Right) => "change-kinetics-right",
-            (Part::Kinetics, Side::Left) => "change-kinetics-left",
-            (Part::Contact, Side::Right) => "change-contact-right",
-            (Part::Contact, Side::Left) => "change-contact-left",
-        };
-        let title = format!("{}, {side} side: before and after, mean ± standard deviation", part.words());
-        self.figure(name, title, self.change_caption(before), panels.collect())
-    }
-
-    fn change_caption(&self, before: &Session) -> String {
-        let days = |session: &Session| session.summary.days().unwrap_or_else(|| "day not stated".to_owned());
-        format!("Before: {}. After: {}.", days(before), days(self.session()))
-    }
-
-    fn session_look(&self, k: usize) -> LineLook {
-        let width = self.style.lines_pt.mean;
-        let line = self.style.sessions.get(k).unwrap_or(&self.style.right);
-        let dash = line.dash.iter().map(|widths| widths * width).collect();
-        LineLook { color: line.color.clone(), width, opacity: 1.0, dash }
+        let panels: Vec<SessionPanel> = panels.collect();
+        let title = format!("{}, {side} side: before and after", part.words());
+        grid(&Grid { id: &format!("change-{}-{side}", part.id()), title: &title, note: &counts.words() }, &panels)
     }
 
     /// The movement analysis profile.
     pub(super) fn profile(&self) -> Option<ProfileFigure> {
         let profile = self.session().summary.profile.as_ref()?;
-        let score = |spread: Option<super::super::Spread>| spread.map(|spread| (spread.mean, spread.sd));
+        let score = |spread: Option<Spread>| spread.map(|spread| (spread.mean, spread.sd));
         let mut bars: Vec<ProfileBars> = profile
             .variables
             .iter()
@@ -265,35 +228,75 @@ impl Figures<'_> {
             sides: [score(profile.right), score(profile.left)],
             expected: profile.expected,
         });
-        let overall = profile
-            .overall
-            .map_or(String::new(), |overall| format!(" Gait profile score of both sides: {overall:.1} deg."));
         Some(ProfileFigure {
             title: "Movement analysis profile".to_owned(),
-            caption: format!(
-                "Distance of the angles from the mean of the reference group, root mean square over the cycle.{overall}"
-            ),
+            caption: "Distance of each angle from the mean of the reference group, root mean square over the cycle."
+                .to_owned(),
             bars,
             legend: ["right", "left", "expected of a person of the reference group"].map(str::to_owned),
         })
     }
+}
 
-    /// Person, days, mass and speed, as far as they are known.
-    pub(super) fn caption(&self) -> String {
-        let summary = &self.session().summary;
-        let mass = summary.mass_kg.map(|mass| format!("{mass:.1} kg"));
-        let speed = summary.speed_m_s.map(|speed| format!("{:.2} m/s", speed.mean));
-        let parts = [summary.person.clone(), summary.days(), mass, speed];
-        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+/// A direction in a word that leaves room for the other one along the ordinate.
+fn short(direction: &'static str) -> &'static str {
+    match direction {
+        "dorsiflexion" | "dorsiflexor" => "dorsi",
+        "plantarflexion" | "plantarflexor" => "plantar",
+        other => other,
     }
 }
 
-fn counted(side: Side, found: &PooledCurve) -> String {
-    let count = match found.statistics.count {
-        1 => "1 cycle".to_owned(),
-        several => format!("{several} cycles"),
-    };
-    found.forces.map_or_else(|| format!("{side}, {count}"), |forces| format!("{side}, {count} {}", forces.word()))
+/// Numbers of cycles behind the means of a figure, by name and source of the forces.
+#[derive(Default)]
+struct Counts(Vec<(String, usize)>);
+
+impl Counts {
+    fn add(&mut self, name: String, found: &PooledCurve) {
+        let source = found.forces.map_or(String::new(), |forces| format!(" with {} forces", forces.word()));
+        let entry = (format!("{name}{source}"), found.statistics.count);
+        if !self.0.contains(&entry) {
+            self.0.push(entry);
+        }
+    }
+
+    fn words(&self) -> String {
+        let words: Vec<String> = self.0.iter().map(|(name, count)| format!("{name} {count}")).collect();
+        if words.is_empty() { String::new() } else { format!("Cycles: {}.", words.join(", ")) }
+    }
+}
+
+/// Name, title and note of a grid of panels.
+struct Grid<'a> {
+    id: &'a str,
+    title: &'a str,
+    note: &'a str,
+}
+
+/// Panels with their title; nothing without lines.
+fn grid(grid: &Grid<'_>, panels: &[SessionPanel]) -> Result<String, FigureError> {
+    if panels.iter().all(|panel| panel.lines.is_empty()) {
+        return Ok(String::new());
+    }
+    let mut html = format!(
+        "<section class=\"curves\" id=\"{}\"><h3>{}</h3>\n<p class=\"soft\">{}</p>\n<div class=\"panels\">\n",
+        grid.id,
+        escaped(grid.title),
+        escaped(grid.note)
+    );
+    for panel in panels {
+        let _ = writeln!(html, "<figure>{}</figure>", panel.svg(grid.id)?);
+    }
+    html += "</div>\n";
+    let widened: Vec<&str> = panels.iter().filter(|panel| panel.is_widened()).map(|panel| panel.title).collect();
+    if !widened.is_empty() {
+        let _ = writeln!(
+            html,
+            "<p class=\"soft\">Scale larger than usual, because curves leave the usual one: {}.</p>",
+            escaped(&widened.join(", "))
+        );
+    }
+    Ok(html + "</section>\n")
 }
 
 /// The area within one standard deviation.
@@ -301,10 +304,4 @@ fn area(found: &PooledCurve, color: &str, opacity: f64) -> Option<PanelArea> {
     let sd = found.statistics.sd.as_ref()?;
     let edge = |sign: f64| found.statistics.mean.iter().zip(sd).map(|(mean, sd)| mean + sign * sd).collect();
     Some(PanelArea { low: edge(-1.0), high: edge(1.0), color: color.to_owned(), opacity })
-}
-
-/// The colour for text about a side.
-pub(super) fn color_of(style: &Style, side: Side) -> Color {
-    let line = style.side(side);
-    Color { color: line.color.clone(), dark: line.dark.clone() }
 }

@@ -1,60 +1,171 @@
 //! The page of a session: one file that needs no other file.
 
+pub(crate) mod answer;
 mod figures;
+mod legend;
 mod sections;
+mod trials;
 
 use super::{ComparedSession, SessionSummary, Spread};
-use crate::figures::{FigureError, SessionFigure};
+use crate::figures::FigureError;
 use crate::html::{Document, code, escaped, html_table};
 use crate::style::style;
 use ambulo::model::Side;
 use ambulo::study::validation::Section;
-use ambulo_results::SESSION_PAGE;
-use figures::{Figures, Part, color_of};
+use ambulo_results::{OutputFile, SESSION_PAGE};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use figures::{Figures, Part};
 use std::fmt::Write;
 
 const STYLE: &str =
     concat!(include_str!("../../../data/report/page.css"), include_str!("../../../data/report/session.css"));
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
-/// The page.
+/// The page; it contains the tables `files`.
 ///
 /// # Errors
 /// A style that cannot be read.
-pub(super) fn page(compared: &ComparedSession) -> Result<String, FigureError> {
+pub(super) fn page(compared: &ComparedSession, files: &[OutputFile<'_>]) -> Result<String, FigureError> {
     let style = style().map_err(|e| FigureError { name: SESSION_PAGE, reason: e.to_string() })?;
     let figures = Figures { compared, style };
     let summary = &compared.session.summary;
     let title = match &summary.person {
-        Some(person) => format!("Session of {person}"),
-        None => "Session".to_owned(),
+        Some(person) => format!("Gait session of {person}"),
+        None => "Gait session".to_owned(),
     };
-    let mut body = format!("<header>\n<h1>{}</h1>\n{}</header>\n<main>\n", escaped(&title), facts(summary));
-    body += &warnings(summary);
-    body += &glance(summary, &figures)?;
-    body += &part("Mean and standard deviation", Part::ALL.map(|part| figures.means(part)))?;
-    body += &before_and_after(&figures)?;
-    body += &section(&sections::times(compared));
-    body += &section(&sections::knee_adduction(&compared.session));
-    body += &section(&sections::contact_loads(&compared.session));
-    body += &section(&sections::deviations(compared));
-    body += &section(&sections::sides(compared));
-    body += &part("Consistency: all cycles", Part::ALL.map(|part| figures.consistency(part)))?;
-    body += &part("Representative cycles", Part::ALL.map(|part| figures.representative(part)))?;
-    body += &section(&sections::trials(&compared.session));
-    body += &section(&sections::excluded(&compared.session));
-    body += &not_computed(summary);
-    let _ = write!(body, "<p class=\"soft\">{} Ambulo {}</p>\n</main>", code(METHOD), escaped(&summary.version));
+    let mut body = first_sheet(compared, &figures, &title)?;
+    body += &curves(&figures)?;
+    body += &tables(compared);
+    body += &trials::trials(&compared.session);
+    body += &trials::data_warnings(&compared.session);
+    body += &about(summary, files);
     let sides = Side::BOTH.map(|side| {
-        let color = color_of(style, side);
-        let name = side.to_string();
+        let line = style.side(side);
         format!(
-            ":root {{ --{name}: {}; }} @media (prefers-color-scheme: dark) {{ :root {{ --{name}: {}; }} }}",
-            color.color, color.dark
+            ":root {{ --{side}: {}; }} @media (prefers-color-scheme: dark) {{ :root {{ --{side}: {}; }} }}",
+            line.color, line.dark
         )
     });
     let style = format!("{STYLE}\n{}", sides.join("\n"));
     Ok(Document { title: &title, policy: POLICY, style: &style, body: &body }.html())
+}
+
+/// Who, when, the answer and what to check: the sheet for a patient's file; then how far from normal.
+fn first_sheet(compared: &ComparedSession, figures: &Figures<'_>, title: &str) -> Result<String, FigureError> {
+    let summary = &compared.session.summary;
+    let strip = compared.session.figure.as_deref().unwrap_or_default();
+    let mut html = format!(
+        "<header>\n<div><h1>{}</h1>\n<p>{}</p></div>\n{strip}</header>\n{}<main>\n<div class=\"first\">\n",
+        escaped(title),
+        escaped(&subtitle(summary)),
+        contents(compared)
+    );
+    let normal = answer::normal(summary, figures)? + &section(&sections::times(compared));
+    let warnings = warnings(compared);
+    html += &match &summary.changes {
+        Some(changes) => format!("{}{warnings}</div>\n{normal}", answer::what_changed(summary, changes)),
+        None => format!("{normal}{warnings}</div>\n"),
+    };
+    Ok(html)
+}
+
+/// `2026-11-03 · 9 years · 32.1 kg · 1.45 m · 1.31 m/s`
+fn subtitle(summary: &SessionSummary) -> String {
+    let speed = summary.speed_m_s.map(|speed| format!("walking at {:.2} m/s", speed.mean));
+    let parts = [
+        Some(summary.days().unwrap_or_else(|| "day not stated".to_owned())),
+        summary.age_years.map(|age| format!("{age} years")),
+        summary.mass_kg.map(|mass| format!("{mass:.1} kg")),
+        summary.height_m.map(|height| format!("{height:.2} m")),
+        speed,
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+}
+
+/// Links to the parts of the page.
+fn contents(compared: &ComparedSession) -> String {
+    let summary = &compared.session.summary;
+    let parts = [
+        ("changes", "What changed", summary.changes.is_some()),
+        ("normal", "How far from normal", summary.profile.is_some() || summary.no_reference.is_some()),
+        ("curves", "Curves", true),
+        ("tables", "Tables", true),
+        ("trials", "Trials", true),
+        ("about", "About this session", true),
+    ];
+    let shown = parts.into_iter().filter(|(.., is_shown)| *is_shown);
+    let links: String = shown.map(|(id, words, _)| format!("<li><a href=\"#{id}\">{words}</a></li>")).collect();
+    format!("<nav aria-label=\"Contents\"><ul>{links}</ul></nav>\n")
+}
+
+fn warnings(compared: &ComparedSession) -> String {
+    let found = trials::first_warnings(&compared.session, compared.earlier.as_ref());
+    if found.is_empty() {
+        return String::new();
+    }
+    let items: String = found.iter().map(|item| format!("<li>{item}</li>\n")).collect();
+    format!("<section class=\"check\"><h2>Check before use</h2>\n<ul class=\"warnings\">\n{items}</ul></section>\n")
+}
+
+/// All curves with one legend.
+fn curves(figures: &Figures<'_>) -> Result<String, FigureError> {
+    let mut html = format!("<section id=\"curves\"><h2>Curves</h2>\n{}", figures.legend());
+    for side in Side::BOTH {
+        for part in Part::ALL {
+            html += &figures.change(part, side)?;
+        }
+    }
+    for part in Part::ALL {
+        html += &figures.means(part)?;
+    }
+    let representative: String =
+        Part::ALL.iter().map(|part| figures.representative(*part)).collect::<Result<Vec<_>, _>>()?.concat();
+    if !representative.is_empty() {
+        html += &folded("Representative cycles", &representative);
+    }
+    Ok(html + "</section>\n")
+}
+
+/// The tables: the short ones open, the long ones folded.
+fn tables(compared: &ComparedSession) -> String {
+    let mut html = String::from("<section id=\"tables\"><h2>Tables</h2>\n");
+    html += &section(&sections::knee_adduction(&compared.session));
+    html += &section(&sections::contact_loads(&compared.session));
+    let mut long = Vec::new();
+    if let Some(before) = &compared.earlier {
+        long.push(sections::time_differences(&compared.session, before));
+        long.push(sections::curve_differences(compared));
+    }
+    long.extend([sections::deviations(compared), sections::sides(compared)]);
+    for table in long.iter().filter(|table| !table.table.rows().is_empty()) {
+        html += &folded(table.title, &html_table(table));
+    }
+    html + "</section>\n"
+}
+
+/// A part that opens on a click and is not printed.
+fn folded(title: &str, html: &str) -> String {
+    format!("<details><summary>{}</summary>\n{html}</details>\n", escaped(title))
+}
+
+/// Facts about person, body and data; the tables as files; the method.
+fn about(summary: &SessionSummary, files: &[OutputFile<'_>]) -> String {
+    let mut html = format!("<section id=\"about\"><h2>About this session</h2>\n{}", facts(summary));
+    let link = |file: &OutputFile<'_>| {
+        // These tables are text in memory, which is always written.
+        let data = STANDARD.encode(file.bytes().unwrap_or_default());
+        let name = escaped(&file.name);
+        format!("<a download=\"{name}\" href=\"data:text/csv;charset=utf-8;base64,{data}\">{name}</a>")
+    };
+    let links: Vec<String> = files.iter().map(link).collect();
+    let _ = writeln!(
+        html,
+        "<p class=\"files\">Tables in this file: {}. All curves are in <code>cycles.csv</code> next to it.</p>",
+        links.join(", ")
+    );
+    let version = escaped(&summary.version);
+    html + &format!("<p class=\"soft\">{} Ambulo {version}</p>\n</section>\n</main>", code(METHOD))
 }
 
 const METHOD: &str = "Angles are clinical: flexion, dorsiflexion, adduction, internal rotation, anterior tilt, own \
@@ -110,62 +221,6 @@ fn convention(summary: &SessionSummary) -> String {
     format!("{} convention{reason}", summary.convention.word())
 }
 
-fn warnings(summary: &SessionSummary) -> String {
-    if summary.warnings.is_empty() {
-        return String::new();
-    }
-    let items: String = summary.warnings.iter().map(|text| format!("<li>{}</li>\n", code(text))).collect();
-    format!("<ul class=\"warnings\">\n{items}</ul>\n")
-}
-
-/// Gait profile scores in large letters, and the profile.
-fn glance(summary: &SessionSummary, figures: &Figures<'_>) -> Result<String, FigureError> {
-    let (Some(profile), Some(figure)) = (&summary.profile, figures.profile()) else { return Ok(String::new()) };
-    let score = |spread: Option<Spread>| spread.map(|spread| (spread.mean, spread.sd));
-    let scores = [
-        ("both sides", "both", profile.overall.map(|overall| (overall, None))),
-        ("right", "right", score(profile.right)),
-        ("left", "left", score(profile.left)),
-    ];
-    let mut html = String::from("<h2>Gait profile score</h2>\n<div class=\"scores\">\n");
-    for (name, class, score) in scores {
-        let Some((mean, sd)) = score else { continue };
-        let sd = sd.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
-        let _ = writeln!(html, "<div class=\"score {class}\"><b>{mean:.1}°</b><span>{name}{sd}</span></div>");
-    }
-    if let Some(expected) = profile.expected {
-        let _ = writeln!(
-            html,
-            "<div class=\"score\"><b>{expected:.1}°</b><span>expected of a person of the reference group</span></div>"
-        );
-    }
-    html += "</div>\n";
-    if profile.overall.is_none() {
-        html +=
-            "<p class=\"soft\">There is no gait profile score, because it needs all nine angles of both sides.</p>\n";
-    }
-    Ok(html + &picture(&figure.svg()?, "Movement analysis profile"))
-}
-
-/// The figures of angles, of kinetics and of contact loads under one title.
-fn part(title: &str, drawn: [Option<SessionFigure>; 3]) -> Result<String, FigureError> {
-    let mut html = String::new();
-    for figure in drawn.into_iter().flatten() {
-        html += &picture(&figure.svg()?, &figure.title);
-    }
-    Ok(if html.is_empty() { html } else { format!("<h2>{}</h2>\n{html}", escaped(title)) })
-}
-
-fn before_and_after(figures: &Figures<'_>) -> Result<String, FigureError> {
-    let Some(before) = &figures.compared.earlier else { return Ok(String::new()) };
-    let mut html = String::new();
-    for side in Side::BOTH {
-        html += &part(&format!("Before and after: {side} side"), Part::ALL.map(|part| figures.change(part, side)))?;
-    }
-    html += &section(&sections::time_differences(&figures.compared.session, before));
-    Ok(html + &section(&sections::curve_differences(figures.compared, before)))
-}
-
 /// A picture that scrolls on a narrow screen.
 fn picture(svg: &str, label: &str) -> String {
     let labelled = format!("<svg aria-label=\"{}\" ", escaped(label));
@@ -176,17 +231,5 @@ fn section(section: &Section) -> String {
     if section.table.rows().is_empty() {
         return String::new();
     }
-    format!("<h2>{}</h2>\n{}", escaped(section.title), html_table(section))
-}
-
-fn not_computed(summary: &SessionSummary) -> String {
-    if summary.not_computed.is_empty() {
-        return String::new();
-    }
-    let items: String = summary
-        .not_computed
-        .iter()
-        .map(|(name, why)| format!("<li><b>{}</b>: {}</li>\n", escaped(name), code(why)))
-        .collect();
-    format!("<h2>Other recordings</h2>\n<ul>\n{items}</ul>\n")
+    format!("<div class=\"whole\"><h3>{}</h3>\n{}</div>\n", escaped(section.title), html_table(section))
 }

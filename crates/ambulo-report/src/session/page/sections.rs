@@ -1,8 +1,9 @@
 //! The tables of the page.
 
-use super::super::differences::{Change, TimeChange, changes, time_changes};
-use super::super::{ComparedSession, Session, all};
+use super::super::differences::{TimeChange, time_changes};
+use super::super::{ComparedSession, Session};
 use ambulo::model::Side;
+use ambulo::numerics::rms;
 use ambulo::study::session::{CycleForces, deviation, pooled, side_difference};
 use ambulo::study::validation::{Section, TextTable, number};
 use ambulo_results::{QuantitySummary, SpreadSummary};
@@ -27,7 +28,7 @@ const NAMES: [(&str, &str, usize); 16] = [
 ];
 
 /// Name and digits of a time or distance in tables.
-fn name(quantity: &str) -> (&'static str, usize) {
+pub(super) fn name(quantity: &str) -> (&'static str, usize) {
     NAMES.iter().find(|(id, ..)| *id == quantity).map_or(("", 2), |(_, name, digits)| (name, *digits))
 }
 
@@ -167,64 +168,11 @@ pub(super) fn sides(compared: &ComparedSession) -> Section {
     Section { title: "Left against right", table, note: note.to_owned() }
 }
 
-pub(super) fn trials(session: &Session) -> Section {
-    let mut table = TextTable::new(&[
-        "trial",
-        "recorded",
-        "activity",
-        "speed m/s",
-        "data",
-        "motion",
-        "cycles r + l",
-        "counted r + l",
-        "measured r + l",
-        "remarks",
-    ]);
-    for trial in &session.summary.trials {
-        let pair = |[right, left]: [usize; 2]| format!("{right} + {left}");
-        let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
-        let remarks = trial.error.clone().unwrap_or_else(|| trial.quality_reasons.join("; "));
-        table.row([
-            trial.trial.clone(),
-            text(&trial.recorded_on),
-            if trial.error.is_some() { "not computed".to_owned() } else { text(&trial.activity) },
-            number(trial.speed_m_s.unwrap_or(f64::NAN), 2),
-            text(&trial.quality),
-            text(&trial.verdict),
-            pair(trial.cycles),
-            pair(trial.counted),
-            pair(trial.measured),
-            remarks,
-        ]);
-    }
-    let note =
-        "Counted: cycles that are in the means. Measured: those of them whose whole stance force plates measured."
-            .to_owned();
-    Section { title: "Trials", table, note }
-}
-
-/// Excluded cycles, and outliers among the counted ones.
-pub(super) fn excluded(session: &Session) -> Section {
-    let mut table = TextTable::new(&["trial", "side", "cycle", "in the means", "reason"]);
-    let found = session.representative();
-    for (k, cycle) in session.cycles.iter().enumerate() {
-        let far = found.distances[k].filter(|_| found.is_far(k));
-        let (counts, reason) = match (&cycle.excluded, far) {
-            (Some(reason), _) => ("no", reason.clone()),
-            (None, Some(distance)) => {
-                ("yes", format!("its angles are {distance:.1} times as far from the median as usual"))
-            }
-            (None, None) => continue,
-        };
-        let name = session.name(cycle.trial).to_owned();
-        table.row([name, cycle.side.to_string(), cycle.number.to_string(), counts.to_owned(), reason]);
-    }
-    Section { title: "Excluded and unusual cycles", table, note: String::new() }
-}
-
 pub(super) fn time_differences(after: &Session, before: &Session) -> Section {
-    let mut table = TextTable::new(&["", "unit", "side", "before", "after", "change"]);
-    for TimeChange { quantity, unit, side, before, after } in time_changes(after, before) {
+    let mut table = TextTable::new(&["", "unit", "side", "before", "after", "change", "how sure"]);
+    for row in time_changes(after, before) {
+        let sure = row.certainty().words().to_owned();
+        let TimeChange { quantity, unit, side, before, after } = row;
         let (name, digits) = name(&quantity);
         let cell = |[mean, sd, n]: [f64; 3]| spread(mean, Some(sd).filter(|sd| sd.is_finite()), n as usize, digits);
         let side = match side {
@@ -233,62 +181,43 @@ pub(super) fn time_differences(after: &Session, before: &Session) -> Section {
             both => both,
         };
         let change = after[0] - before[0];
-        table.row([name.to_owned(), unit, side.to_owned(), cell(before), cell(after), format!("{change:+.digits$}")]);
+        let change = format!("{change:+.digits$}");
+        table.row([name.to_owned(), unit, side.to_owned(), cell(before), cell(after), change, sure]);
     }
-    Section { title: "Before and after: times and distances", table, note: String::new() }
+    Section { title: "Changes of times and distances", table, note: String::new() }
 }
 
-pub(super) fn curve_differences(compared: &ComparedSession, before: &Session) -> Section {
+pub(super) fn curve_differences(compared: &ComparedSession) -> Section {
     let mut table = TextTable::new(&[
-        "",
-        "side",
-        "unit",
-        "forces",
-        "cycles",
-        "change",
-        "largest",
-        "at %",
-        "clear %",
-        "from normal before",
-        "from normal after",
+        "", "side", "unit", "forces", "cycles", "change", "largest", "at %", "offset", "beyond", "how sure",
     ]);
     let shown = compared.shown();
-    for change in changes(&compared.session, before, &compared.norms) {
-        let Change { quantity, side, forces, cycles, rms, largest, at_percent, clear, from_normal } = change;
-        if !shown.contains(&quantity) {
-            continue;
-        }
-        let unit = quantity.wording().unit;
+    for change in compared.changes.iter().filter(|change| shown.contains(&change.quantity)) {
+        let unit = change.quantity.wording().unit;
         let digits = if unit == "deg" { 1 } else { 2 };
-        let [before, after] = from_normal.unwrap_or([f64::NAN; 2]);
         table.row([
-            quantity.label(),
-            side.to_string(),
+            change.quantity.label(),
+            change.side.to_string(),
             unit.to_owned(),
-            forces.map_or("", CycleForces::word).to_owned(),
-            format!("{} / {}", cycles[0], cycles[1]),
-            number(rms, digits),
-            format!("{largest:+.digits$}"),
-            number(at_percent, 0),
-            number(clear.map_or(f64::NAN, |clear| 100.0 * clear), 0),
-            number(before, digits),
-            number(after, digits),
+            change.forces.map_or("", CycleForces::word).to_owned(),
+            format!("{} / {}", change.cycles[0], change.cycles[1]),
+            number(rms(&change.found.change), digits),
+            format!("{:+.digits$}", change.largest()),
+            number(change.at_percent(), 0),
+            format!("{:+.digits$}", change.found.offset),
+            number(rms(&change.found.beyond), digits),
+            change.found.certainty.words().to_owned(),
         ]);
     }
-    let left_out = all().filter(|quantity| shown.contains(quantity)).count() * 2 - table.rows().len();
-    let missing = match left_out {
-        0 => String::new(),
-        _ => {
-            " Curves that only one of the sessions has, or whose forces have another source than before, are left out."
-                .to_owned()
-        }
+    let missing = match shown.len() * 2 - table.rows().len() {
+        0 => "",
+        _ => " Curves that only one session has, or whose forces have another source than before, are left out.",
     };
     let note = format!(
-        "Change: root mean square of after minus before. Clear: share of the cycle in which the change is larger than \
-         two standard deviations of the \
-         difference of the means over the cycles; it says nothing about the repeatability between days. From normal: \
-         distance from the mean of the \
-         reference group.{missing}"
+        "After minus before. Change: root mean square over the cycle. Offset: the constant part that markers in another \
+         place explain. Beyond: root mean square of the rest. A change is clear if, in more than a tenth of the cycle, \
+         the rest is larger than two standard deviations of the difference of the means and than the least change that \
+         counts (docs/SESSION.md). Nothing is known of the variation between days.{missing}"
     );
-    Section { title: "Before and after: curves", table, note }
+    Section { title: "Changes of all curves", table, note }
 }

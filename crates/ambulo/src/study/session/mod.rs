@@ -6,6 +6,7 @@
 //! PooledCurve      mean and standard deviation over the cycles of a side
 //! representative   the cycle nearest to the median of all
 //! GaitProfile      distances from the mean of healthy subjects: gait variable scores, gait profile score
+//! CurveChange      before and after, without what a new calibration of the body explains
 //! Deviation        where over the cycle a mean curve leaves the normative band
 //! ```
 //!
@@ -15,14 +16,16 @@
 //! Not handled: cycles whose curves are shifted in phase; they are compared per cent by per cent.
 //! Pinned by: tests/session.rs
 
+mod change;
 mod exclusion;
 mod pool;
 mod profile;
 mod representative;
 
+pub use change::{Certainty, CurveChange, calibration_error, curve_change, least_change, mixed_with};
 pub use exclusion::{CycleFacts, Exclusion, TrialFacts, exclusions};
 pub use pool::{CurveStatistics, PooledCurve, pooled, side_difference};
-pub use profile::{Deviation, GaitProfile, NormalCurve, PROFILE, VariableScore, deviation, profile};
+pub use profile::{Deviation, GaitProfile, NormalCurve, PROFILE, VariableScore, deviation, deviation_index, profile};
 pub use representative::{Representative, representative};
 
 use crate::model::Side;

@@ -22,6 +22,7 @@ use super::SessionCycle;
 use super::pool::{CurveStatistics, rms_difference};
 use crate::model::{BySide, Side};
 use crate::motion::interpolate;
+use crate::numerics::elementary::ln;
 use crate::numerics::rms;
 
 /// The angles of the profile, pelvis angles first.
@@ -66,6 +67,14 @@ impl NormalCurve {
         rms_difference(&self.sampled(curve), &self.mean)
     }
 
+    /// The mean at a per cent of the cycle.
+    #[must_use]
+    pub fn at_percent(&self, percent: f64) -> f64 {
+        let own: Vec<f64> =
+            (0..self.mean.len()).map(|i| 100.0 * i as f64 / (self.mean.len().max(2) - 1) as f64).collect();
+        interpolate(&own, &self.mean, percent)
+    }
+
     /// The score to expect of a person of the reference group.
     #[must_use]
     pub fn expected_score(&self) -> f64 {
@@ -106,6 +115,17 @@ pub struct GaitProfile {
     pub overall: Option<f64>,
     /// The gait profile score to expect of a person of the reference group.
     pub expected_overall: Option<f64>,
+}
+
+/// Gait deviation index of a gait profile score [deg], from mean and standard deviation of ln(GPS) over healthy people:
+///
+///   GDI = 100 - 10 (ln GPS - mean) / sd
+///
+/// This is the index of the profile score (Baker et al. 2009 call it GDI*, unverified); the index of Schwartz and
+/// Rozumalski 2008 (Gait and Posture 28:351, unverified) takes features of thousands of strides in place of the score.
+#[must_use]
+pub fn deviation_index(score_deg: f64, [mean, sd]: [f64; 2]) -> f64 {
+    100.0 - 10.0 * (ln(score_deg) - mean) / sd
 }
 
 /// The profile of the cycles that are not excluded; `norm` returns the curve of the reference group for an angle.

@@ -10,8 +10,8 @@ use crate::toml_reader::{Place, Source, Table, TomlError};
 use pattern::Pattern;
 
 const DOCUMENT: &str = "docs/VALIDATE.md";
-const KEYS: [&str; 11] =
-    ["files", "person", "kind", "static", "mass", "height", "age", "model", "grf", "loads", "exclude"];
+const KEYS: [&str; 12] =
+    ["files", "person", "date", "kind", "static", "mass", "height", "age", "model", "grf", "loads", "exclude"];
 
 /// The list.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -31,6 +31,8 @@ struct Entry {
 pub struct StatedTrial {
     /// Person of the trial.
     pub person: Option<String>,
+    /// Day of the recording, as YYYY-MM-DD.
+    pub recorded_on: Option<String>,
     /// The kind of trial in tables, in place of the recognised one.
     pub kind: Option<String>,
     /// The standing trial of the person.
@@ -61,6 +63,7 @@ impl StatedTrial {
         let text = |later: &Option<String>, earlier: Option<String>| later.clone().or(earlier);
         StatedTrial {
             person: text(&later.person, self.person),
+            recorded_on: text(&later.recorded_on, self.recorded_on),
             kind: text(&later.kind, self.kind),
             standing: text(&later.standing, self.standing),
             mass_kg: later.mass_kg.or(self.mass_kg),
@@ -111,6 +114,26 @@ impl TrialList {
     }
 }
 
+/// A day, as YYYY-MM-DD.
+///
+/// # Errors
+/// The form that is expected.
+pub fn day(text: &str) -> Result<String, &'static str> {
+    let parts: Vec<Option<u32>> = text.split('-').map(|part| part.parse().ok()).collect();
+    let is_day = match parts[..] {
+        [Some(_), Some(month), Some(day)] => (1..=12).contains(&month) && (1..=31).contains(&day),
+        _ => false,
+    };
+    let has_widths = text.split('-').map(str::len).eq([4, 2, 2]);
+    if is_day && has_widths { Ok(text.to_owned()) } else { Err("a day as YYYY-MM-DD, such as 2026-03-12") }
+}
+
+/// The day of the key `date`: a text, or a date of TOML.
+fn recorded_on(table: &Table<'_>) -> Result<Option<String>, TomlError> {
+    let Some(value) = table.get("date") else { return Ok(None) };
+    day(&value.filled_text()?).map(Some).map_err(|expected| value.wrong(expected))
+}
+
 fn entry(table: &Table<'_>) -> Result<Entry, TomlError> {
     table.only(&[&KEYS])?;
     let files = table.need("files", "the path of a file, or a pattern such as \"person1/*.c3d\"")?;
@@ -121,6 +144,7 @@ fn entry(table: &Table<'_>) -> Result<Entry, TomlError> {
         files: Pattern::new(&files.filled_text()?),
         stated: StatedTrial {
             person: text("person")?,
+            recorded_on: recorded_on(table)?,
             kind: text("kind")?,
             standing: text("static")?,
             mass_kg: size("mass")?,
