@@ -213,7 +213,7 @@ fn roll() -> Files {
 fn stack() -> Files {
     let times = seconds(0.3, 0.05, 4);
     let columns = [("lower/floor/fy", 4.5 * G), ("upper/lower/fy", 1.5 * G), ("lower/floor/fx", 0.0)];
-    let columns = columns.iter().map(|(name, force)| column(name, &times, &|_: f64| *force)).collect();
+    let columns = columns.iter().map(|(name, force)| column(name, &times, |_: f64| *force)).collect();
     ("contact/stack", vec![("reference.csv", csv(&times, columns))])
 }
 
