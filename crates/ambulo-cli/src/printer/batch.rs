@@ -134,8 +134,8 @@ fn failures<'a>(rows: &[&'a BatchRow]) -> Vec<(&'a str, Vec<&'a str>)> {
         let is_text = |c: &char| !c.is_ascii_digit();
         let kind: String = what.replace(row.name.as_str(), "").chars().filter(is_text).collect();
         match groups.iter_mut().find(|(known, ..)| *known == kind) {
-            Some((.., names)) => names.push(&row.name),
-            None => groups.push((kind, what, vec![&row.name])),
+            Some((.., names)) => names.push(row.name.as_str()),
+            None => groups.push((kind, what, vec![row.name.as_str()])),
         }
     }
     // Groups of the same size keep the order of the ranking.
