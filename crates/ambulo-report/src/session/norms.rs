@@ -32,7 +32,7 @@ pub(crate) struct Norms {
 
 /// The literature has curves of groups, not the scores of its children.
 const NO_INDEX: &str = "it needs the scores of at least 30 healthy people, which the published curves do not contain: \
-    give an own reference group with `--norm`";
+    state a reference group of your own";
 
 impl Norms {
     pub(crate) fn curve(&self, quantity: &str) -> Option<&NormalCurve> {
