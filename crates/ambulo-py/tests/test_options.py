@@ -203,4 +203,7 @@ def test_muscles_are_computed_and_their_options_are_checked(tmp_path):
         model.muscle_paths(q, wraps="nothing")
     with pytest.raises(ambulo.InputError, match="muscles"):
         ambulo.forces(walk, **recording, muscles={"nothing": 1})
-    assert ambulo.forces(walk, **recording).muscles is None
+    without = ambulo.forces(walk, **recording)
+    assert not without.has("muscles")
+    with pytest.raises(ambulo.InputError, match="no muscles were asked for"):
+        _ = without.muscles

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -30,7 +29,11 @@ def _run(verb: str, files: Sequence[Any], options: dict[str, Any], *, as_json: b
         elif value is not None and value is not False:
             words.append(f"{option}={os.fspath(value) if isinstance(value, os.PathLike) else value}")
     text = _ambulo.printed(words)
-    return json.loads(text) if as_json else None
+    if not as_json:
+        return None
+    import json
+
+    return json.loads(text)
 
 
 @contextmanager
