@@ -1,5 +1,5 @@
-//! What changed since an earlier session: scores, speed, step length, and the largest changes of curves beyond the error
-//! of a calibration.
+//! What changed since an earlier session: scores, speed, step length, and the largest changes of curves beyond the
+//! error of a calibration.
 
 use super::differences::{Change, TimeChange, time_changes};
 use super::summary::{ChangeSummary, ChangesSummary};

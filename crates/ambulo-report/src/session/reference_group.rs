@@ -204,7 +204,8 @@ impl ReferenceGroup {
         match self.log_scores.and_then(|scores| Some([scores.mean, scores.sd?])) {
             Some(scale) if found >= FEWEST_OF_INDEX => Ok(scale),
             _ => Err(format!(
-                "it needs a reference group of at least {FEWEST_OF_INDEX} people with all nine angles; this one has {found}"
+                "it needs a reference group of at least {FEWEST_OF_INDEX} people with all nine angles; this one has \
+                 {found}"
             )),
         }
     }

@@ -205,7 +205,8 @@ pub(super) fn deviations_csv(compared: &ComparedSession) -> String {
 /// `trials.csv`: a row per trial.
 pub(super) fn trials_csv(session: &Session) -> String {
     let mut text = String::from(
-        "trial,recorded_on,activity,speed_m_s,quality,verdict,cycles_r,cycles_l,counted_r,counted_l,measured_r,measured_l,\
+        "trial,recorded_on,activity,speed_m_s,quality,verdict,cycles_r,cycles_l,counted_r,counted_l,measured_r,\
+         measured_l,\
          error,quality_reasons,excluded\n",
     );
     for trial in &session.summary.trials {

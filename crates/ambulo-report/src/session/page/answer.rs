@@ -30,7 +30,8 @@ pub(super) fn what_changed(summary: &SessionSummary, changes: &ChangesSummary) -
     }
     html += "</tbody></table></div>\n";
     html += &calibration(&changes.calibration);
-    html + "<p class=\"soft\">Clear: larger than two standard deviations of the difference over the cycles (in brackets). \
+    html + "<p class=\"soft\">Clear: larger than two standard deviations of the difference over the cycles (in \
+        brackets). \
             A score counts from 1.6°. Nothing is known of the variation between days. Curves: values where the change \
             is largest.</p>\n</section>\n"
 }
@@ -79,8 +80,10 @@ fn calibration(explained: &[ChangeSummary]) -> String {
         names.push(format!("and {} more", explained.len() - NAMED));
     }
     format!(
-        "<p class=\"caution\"><b>Not counted, because a new calibration explains it:</b> {}. Markers or wands that were \
-         placed anew add such an offset. A change of the bone (a rotation) would look the same: compare with the physical \
+        "<p class=\"caution\"><b>Not counted, because a new calibration explains it:</b> {}. Markers or wands that \
+         were \
+         placed anew add such an offset. A change of the bone (a rotation) would look the same: compare with the \
+         physical \
          examination.</p>\n",
         escaped(&names.join(", "))
     )
@@ -92,7 +95,8 @@ fn row(change: &ChangeSummary) -> String {
     let spread = change.two_sd.map_or(String::new(), |two_sd| format!(" (± {two_sd:.digits$})"));
     format!(
         "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.digits$}</td><td class=\"number\">{:.digits$}</td>\
-         <td class=\"number\">{:+.digits$}</td><td class=\"number\">{normal}</td><td class=\"sure {}\">{}{spread}</td></tr>\n",
+         <td class=\"number\">{:+.digits$}</td><td class=\"number\">{normal}</td><td class=\"sure \
+         {}\">{}{spread}</td></tr>\n",
         escaped(&row_name(change)),
         change.before,
         change.after,
@@ -169,7 +173,8 @@ pub(super) fn normal(summary: &SessionSummary, figures: &Figures<'_>) -> Result<
         let sd = sd.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
         let _ = writeln!(html, "<div class=\"score {class}\"><b>{mean:.1}°</b><span>{name}{sd}</span></div>");
     }
-    html += "</div>\n<p>The gait profile score is the distance of nine angles of pelvis, hip, knee, ankle and foot from \
+    html += "</div>\n<p>The gait profile score is the distance of nine angles of pelvis, hip, knee, ankle and foot \
+        from \
              the mean of healthy people, root mean square over the cycle.</p>\n";
     if profile.overall.is_none() {
         html += "<p class=\"soft\">There is no score of both sides, because it needs all nine angles of both.</p>\n";
@@ -186,7 +191,8 @@ fn deviation_index(profile: &super::super::ProfileSummary) -> String {
     let Some(index) = profile.deviation_index else { return String::new() };
     let number = |index: Option<f64>| index.map_or("-".to_owned(), |index| format!("{index:.0}"));
     format!(
-        "<p>Gait deviation index, from the score: <b>{}</b>; right {}, left {}. 100 is the mean of the reference group, 10 \
+        "<p>Gait deviation index, from the score: <b>{}</b>; right {}, left {}. 100 is the mean of the reference \
+         group, 10 \
          less is a standard deviation away.</p>\n",
         number(index.overall),
         number(index.right),

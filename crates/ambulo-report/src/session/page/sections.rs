@@ -214,7 +214,8 @@ pub(super) fn curve_differences(compared: &ComparedSession) -> Section {
         _ => " Curves that only one session has, or whose forces have another source than before, are left out.",
     };
     let note = format!(
-        "After minus before. Change: root mean square over the cycle. Offset: the constant part that markers in another \
+        "After minus before. Change: root mean square over the cycle. Offset: the constant part that markers in \
+         another \
          place explain. Beyond: root mean square of the rest. A change is clear if, in more than a tenth of the cycle, \
          the rest is larger than two standard deviations of the difference of the means and than the least change that \
          counts (docs/SESSION.md). Nothing is known of the variation between days.{missing}"

@@ -200,13 +200,9 @@ impl Measure {
                 "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
                  one"
             }
-            Measure::PlatePlace => {
-                "distance of the measured centres of pressure from the lines of the soles to the right or left, mean \
-                 of both feet"
-            }
+            Measure::PlatePlace => "distance of the measured centres of pressure from the feet to one side",
             Measure::StanceHeight => {
-                "largest height of the sole in a stance above or below that of the other stances of the foot, in level \
-                 walking"
+                "largest height of a sole above or below that of the other stances of the foot, in level walking"
             }
             Measure::Jumps => "number of jumps of recorded coordinates",
             Measure::FrozenPoints => {

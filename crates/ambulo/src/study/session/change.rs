@@ -17,8 +17,8 @@
 //!
 //! A sample is clear if \|r\| exceeds both 2 s and [`least_change`].
 //!
-//! Source of the limits: ours. McGinley et al. 2009 (Gait and Posture 29:360, abstract read) review repeatability between
-//! sessions: the largest errors are those of rotations of hip and knee.
+//! Source of the limits: ours. McGinley et al. 2009 (Gait and Posture 29:360, abstract read) review repeatability
+//! between sessions: the largest errors are those of rotations of hip and knee.
 //! Pinned by: tests/session.rs
 
 use super::pool::CurveStatistics;
