@@ -33,9 +33,9 @@ pub use reproduction::reproduction_files;
 pub use reproduction_page::reproduction_page;
 pub use scene_shapes::scene_shapes;
 pub use session::{
-    ChangeSummary, ChangesSummary, ComparedSession, ComputedTrial, DeviationIndexSummary, ExcludedSummary,
-    ProfileSummary, ReferenceGroup, ReferenceGroupError, RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts,
-    SessionSummary, SessionTrial, Spread, TrialSummary, TrialWarning, session_from_files, session_quantity_label,
+    ChangeSummary, ChangesSummary, ComparedSession, ComputedTrial, ExcludedSummary, ProfileSummary, ReferenceGroup,
+    ReferenceGroupError, RepresentativeSummary, SESSION_FORMAT, Session, SessionFacts, SessionSummary, SessionTrial,
+    Spread, TrialSummary, TrialWarning, session_from_files, session_quantity_label,
 };
 pub use stage::quaternion;
 pub use sweep::{SweptConditions, SweptWalk, WalkCurves, sweep_files};

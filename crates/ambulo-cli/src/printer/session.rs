@@ -2,7 +2,7 @@
 
 use super::{print_json, print_line};
 use crate::args::PrintArgs;
-use ambulo_report::{SessionSummary, Spread, TrialSummary, session_quantity_label};
+use ambulo_report::{ChangeSummary, ChangesSummary, SessionSummary, Spread, TrialSummary, session_quantity_label};
 use anyhow::Result;
 use std::path::Path;
 
@@ -31,7 +31,9 @@ pub(crate) fn session(summary: &SessionSummary, output: &Path, print: PrintArgs)
         print_line(&format!("  speed     {} m/s", mean(speed, 2)))?;
     }
     print_profile(summary)?;
-    print_changes(summary)?;
+    if let Some(changes) = &summary.changes {
+        print_changes(changes)?;
+    }
     let errors = summary.trials.iter().filter_map(|trial| Some((&trial.trial, trial.error.as_ref()?.clone())));
     let left_out: Vec<(&String, String)> = errors.chain(excluded(summary)).collect();
     let shown = if print.verbose { usize::MAX } else { SHOWN };
@@ -62,30 +64,33 @@ fn excluded(summary: &SessionSummary) -> Vec<(&String, String)> {
     groups.into_iter().map(words).collect()
 }
 
-fn print_changes(summary: &SessionSummary) -> Result<()> {
-    let Some(changes) = &summary.changes else { return Ok(()) };
+fn print_changes(changes: &ChangesSummary) -> Result<()> {
     for change in changes.scores.iter().take(1).chain(&changes.largest) {
-        let place = change.at_percent.map_or(String::new(), |percent| format!(" at {percent:.0} %"));
-        let side = match change.side.as_str() {
-            "r" => ", right",
-            "l" => ", left",
-            _ => "",
-        };
-        let digits = if change.unit == "deg" { 1 } else { 2 };
-        print_line(&format!(
-            "  change    {}{side}{place}: {:.digits$} to {:.digits$} {} ({})",
-            session_quantity_label(&change.quantity),
-            change.before,
-            change.after,
-            change.unit,
-            change.words
-        ))?;
+        print_line(&words_of(change))?;
     }
     let [clear, all] = changes.clear;
     let explained = changes.calibration.len();
     print_line(&format!(
         "  changes   {clear} of {all} curves changed clearly; a new calibration explains the change of {explained} more"
     ))
+}
+
+fn words_of(change: &ChangeSummary) -> String {
+    let place = change.at_percent.map_or(String::new(), |percent| format!(" at {percent:.0} %"));
+    let side = match change.side.as_str() {
+        "r" => ", right",
+        "l" => ", left",
+        _ => "",
+    };
+    let digits = if change.unit == "deg" { 1 } else { 2 };
+    format!(
+        "  change    {}{side}{place}: {:.digits$} to {:.digits$} {} ({})",
+        session_quantity_label(&change.quantity),
+        change.before,
+        change.after,
+        change.unit,
+        change.words
+    )
 }
 
 fn print_profile(summary: &SessionSummary) -> Result<()> {

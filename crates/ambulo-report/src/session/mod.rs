@@ -26,11 +26,11 @@ mod trial;
 mod walk_strip;
 
 pub use reference_group::{ReferenceGroup, ReferenceGroupError};
-pub(crate) use summary::VariableSummary;
 pub use summary::{
-    ChangeSummary, ChangesSummary, DeviationIndexSummary, ExcludedSummary, ProfileSummary, RepresentativeSummary,
-    SESSION_FORMAT, SessionSummary, Spread, TrialSummary, TrialWarning,
+    ChangeSummary, ChangesSummary, ExcludedSummary, ProfileSummary, RepresentativeSummary, SESSION_FORMAT,
+    SessionSummary, Spread, TrialSummary, TrialWarning,
 };
+pub(crate) use summary::{DeviationIndexSummary, VariableSummary};
 pub use tables::session_from_files;
 pub use trial::{ComputedTrial, SessionTrial};
 

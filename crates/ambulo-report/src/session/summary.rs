@@ -162,7 +162,7 @@ pub struct ProfileSummary {
     pub(crate) variables: Vec<VariableSummary>,
     /// Gait deviation indices; `null` without an own reference group of 30 people.
     #[serde(default)]
-    pub deviation_index: Option<DeviationIndexSummary>,
+    pub(crate) deviation_index: Option<DeviationIndexSummary>,
     /// Why there is none.
     #[serde(default)]
     pub no_deviation_index: Option<String>,
@@ -171,7 +171,7 @@ pub struct ProfileSummary {
 /// Gait deviation index, from the gait profile score: 100 is the mean of the reference group, 10 less a standard
 /// deviation away.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct DeviationIndexSummary {
+pub(crate) struct DeviationIndexSummary {
     /// Of the right cycles.
     pub right: Option<f64>,
     /// Of the left cycles.
