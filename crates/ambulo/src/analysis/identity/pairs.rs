@@ -6,9 +6,6 @@
 //! - both are nearer to the neighbouring joint of the other side than to the one of their own side: an ankle to the
 //!   knee, a wrist to the elbow. A forearm cannot be as long as the distance to the other elbow.
 //!
-//! Of a foot the second criterion is enough where its marker is further from its own ankle than a foot is long: people
-//! who put one foot before the other have heels that are on neither side.
-//!
 //! Pairs are tested from the pelvis down and from the shoulders out, so that a neighbour is correct before it is used.
 
 use super::landmark_paths::LandmarkPaths;
@@ -23,8 +20,6 @@ use crate::numerics::median;
 const NEARER_M: f64 = 0.03;
 /// No forearm is as long [m]: the mean of tall men is 0.28, with a standard deviation below 0.02 (unverified).
 const LONGEST_FOREARM_M: f64 = 0.36;
-/// No marker of a foot is as far from the ankle [m]: feet of tall men are 0.3 m long, and the ankle is not at an end.
-const LONGEST_FOOT_M: f64 = 0.3;
 /// Shoulders, which have no neighbour, are at least this far apart [m]. A head may look anywhere.
 const FAR_APART_M: f64 = 0.1;
 
@@ -94,13 +89,7 @@ fn neighbours(marker: &NamedMarker) -> &'static [Landmark] {
 }
 
 fn is_exchanged(paths: &LandmarkPaths<'_>, pair: &Pair<'_>) -> bool {
-    let Some(across) = paths.across(pair) else { return false };
-    let is_crossed = across < -APART_M;
-    let segment = pair.right.definition.segment;
-    let is_of_foot = matches!(segment, Segment::Foot | Segment::Toes);
-    if !is_crossed && !is_of_foot {
-        return false;
-    }
+    let Some(across) = paths.across(pair).filter(|across| *across < -APART_M) else { return false };
     let neighbours = neighbours(pair.right);
     let distances = |frame: usize| {
         let [right, left] = [paths.place(pair.numbers[0], frame)?, paths.place(pair.numbers[1], frame)?];
@@ -114,9 +103,6 @@ fn is_exchanged(paths: &LandmarkPaths<'_>, pair: &Pair<'_>) -> bool {
         return is_joint(pair.right.definition.landmark) && across < -FAR_APART_M;
     };
     let own = median(seen.iter().map(|[own, _]| 0.5 * own)).unwrap_or(0.0);
-    let is_possible = match segment {
-        Segment::Forearm => own < LONGEST_FOREARM_M,
-        _ => !is_crossed && own < LONGEST_FOOT_M,
-    };
+    let is_possible = pair.right.definition.segment == Segment::Forearm && own < LONGEST_FOREARM_M;
     nearer > NEARER_M && !is_possible
 }
