@@ -50,7 +50,7 @@ fn run(tutorial: &str) {
     }
 }
 
-/// What another test has computed, instead of computing it again.
+/// Copies a folder that another test has computed.
 fn copy_folder(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();
     for entry in std::fs::read_dir(from).unwrap() {

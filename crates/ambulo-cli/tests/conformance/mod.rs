@@ -53,7 +53,7 @@ fn the_suite_is_small() {
     assert!(bytes < 300_000, "{bytes} bytes");
 }
 
-/// What the judge prints about a folder of outputs, and its exit code.
+/// Output and exit code of the judge for a folder of results.
 fn judged(bench: &Workbench, folder: &str, cases: &[&str]) -> (i32, String) {
     let mut judge = Command::new(if cfg!(windows) { "python" } else { "python3" });
     let output =

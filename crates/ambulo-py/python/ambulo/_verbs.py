@@ -74,7 +74,7 @@ def demo(output: _Path, *, keep: Sequence[str] | str | None = None, force: bool 
 
     Notes
     -----
-    As ``ambulo demo``. What the files contain: docs/OUTPUTS.md.
+    As ``ambulo demo``. The files are described in docs/OUTPUTS.md.
     """
     _run("demo", [], {"output": output, "keep": listed(keep), "force": force}, as_json=False)
     return Result(_ambulo.open(output))
@@ -279,7 +279,7 @@ def report(
 
     Notes
     -----
-    The page of a result in memory is `Result.page`. What it shows: docs/REPORT.md.
+    The page of a result in memory is `Result.page`. The page is described in docs/REPORT.md.
     """
     others = [] if compare is None else [compare] if isinstance(compare, (str, os.PathLike)) else list(compare)
     words = [folder, *(f"--compare={os.fspath(other)}" for other in others)]
@@ -307,7 +307,7 @@ def view(result: Result | _Path) -> Path:
 
     Notes
     -----
-    In a notebook, a result shows its page by itself. What the page shows: docs/REPORT.md.
+    In a notebook, a result shows its page by itself. The page is described in docs/REPORT.md.
     """
     import tempfile
     import webbrowser

@@ -1,4 +1,4 @@
-//! What changed since an earlier session: scores, speed, step length, and the largest changes of curves beyond the
+//! Changes since an earlier session: scores, speed, step length, and the largest changes of curves beyond the
 //! error of a calibration.
 
 use super::differences::{Change, TimeChange, time_changes};

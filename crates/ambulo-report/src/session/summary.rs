@@ -285,7 +285,7 @@ pub struct SessionSummary {
     pub profile: Option<ProfileSummary>,
     /// The earlier session that it is compared with: its days, or `an earlier session`.
     pub compared_with: Option<String>,
-    /// What changed since then.
+    /// Changes since then.
     #[serde(default)]
     pub changes: Option<ChangesSummary>,
     /// Warnings about the session as a whole.

@@ -86,7 +86,7 @@ impl Costs {
         None
     }
 
-    /// What the steps make of P.
+    /// The map of P through the steps.
     fn passage(&self, steps: &[StepMap]) -> Option<Passage> {
         let mut passage = Passage::none(self.state.nrows());
         for step in steps.iter().rev() {
@@ -108,7 +108,7 @@ impl Costs {
     }
 }
 
-/// What some steps make of P: P ↦ H + Aᵀ P (I + G P)⁻¹ A.
+/// The map of P through some steps, P ↦ H + Aᵀ P (I + G P)⁻¹ A.
 struct Passage {
     /// A: the closed system, without cost after the steps.
     closed: DMatrix<f64>,

@@ -85,7 +85,7 @@ struct PersonSession {
     pages: Vec<OutputFile<'static>>,
 }
 
-/// What the user states about a session.
+/// Name and date that the user gives a session.
 #[derive(Debug, Clone, Default)]
 struct Stated {
     name: Option<String>,
