@@ -171,6 +171,17 @@ fn a_second_marker_on_a_landmark_is_technical() {
 }
 
 #[test]
+fn a_landmark_has_the_same_marker_on_both_sides_whatever_the_order_of_the_file() {
+    // Exchanged labels: the left heels are named in the other order than the right ones.
+    let found =
+        recognised("LASI RASI LPSI RPSI LKNE RKNE LANK RANK RHEE RCAL RTOE LCAL LHEE LTOE LNAV RNAV R.Knee L.Knee");
+    for side in Side::BOTH {
+        let name = if side == Side::Right { "RHEE" } else { "LHEE" };
+        assert_eq!(found.on(Landmark::Heel, Some(side)), Some(name));
+    }
+}
+
+#[test]
 fn a_custom_set_adds_to_the_built_in_ones_and_its_landmarks_win() {
     let text = "name = 'mine'\n[[single]]\nnames = 'own knee'\nside = 'right'\nlandmark = 'lateral_epicondyle'\n\
                 [[single]]\nnames = 'LTHI'\nside = 'left'\nsegment = 'tibia'";

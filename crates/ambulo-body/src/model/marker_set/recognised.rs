@@ -4,7 +4,7 @@ use super::name_index::{NameIndex, NameReading, RecordedName, stem};
 use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// Smallest number of further names that an additional set must explain; fewer may be coincidence.
@@ -81,7 +81,8 @@ impl RecognisedMarkers {
     /// Recognises markers with a set of the laboratory's own, if there is one, and the names that it does not have with
     /// the built-in sets: first the one that explains most names, then any that explain at least two of the others.
     /// Names that are written as in a set go before names that only mean the same (`NameIndex`). A landmark that
-    /// several markers show belongs to the marker of the laboratory's set, otherwise to the first.
+    /// several markers show belongs to the marker of the first of these sets, whatever the order of the file: so right
+    /// and left have the same marker.
     ///
     /// # Errors
     /// Names that no set explains.
@@ -105,32 +106,28 @@ impl RecognisedMarkers {
         }
         let Search { found, used, .. } = search;
         let used: Vec<&MarkerSet> = used.into_iter().map(|set| sets[set]).collect();
-        Ok(RecognisedMarkers::of(&used, &names, &found, own))
+        Ok(RecognisedMarkers::of(&used, &names, &found))
     }
 
-    fn of(
-        used: &[&MarkerSet],
-        names: &[&str],
-        found: &[Option<&MarkerDefinition>],
-        own: Option<&MarkerSet>,
-    ) -> RecognisedMarkers {
-        let is_own =
-            |found: &MarkerDefinition| own.is_some_and(|own| own.markers.iter().any(|of| std::ptr::eq(of, found)));
-        let key = |found: &MarkerDefinition| Some((found.landmark?, found.side));
-        let taken: BTreeSet<(Landmark, Option<Side>)> =
-            found.iter().flatten().copied().filter(|found| is_own(found)).filter_map(key).collect();
+    fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> RecognisedMarkers {
+        let rank =
+            |found: &MarkerDefinition| used.iter().position(|set| set.markers.iter().any(|m| std::ptr::eq(m, found)));
+        let of_place = |found: &MarkerDefinition| (found.landmark, found.side);
+        let mut first = BTreeMap::new();
+        for (number, definition) in found.iter().enumerate().filter_map(|(number, found)| Some((number, (*found)?))) {
+            let this = (rank(definition), number);
+            first.entry(of_place(definition)).and_modify(|best| *best = this.min(*best)).or_insert(this);
+        }
         let mut markers: Vec<NamedMarker> = Vec::new();
         let mut unknown = Vec::new();
-        let mut places: BTreeSet<(Landmark, Option<Side>)> = BTreeSet::new();
-        for (name, definition) in names.iter().zip(found) {
+        for (number, (name, definition)) in names.iter().zip(found).enumerate() {
             let Some(found) = *definition else {
                 unknown.push((*name).to_owned());
                 continue;
             };
             let mut definition = found.clone();
             // A landmark has one marker; a second one only shows the motion of the segment.
-            let is_second = |place| !is_own(found) && taken.contains(&place) || !places.insert(place);
-            if key(found).is_some_and(is_second) {
+            if first.get(&of_place(found)).is_some_and(|(_, first)| *first != number) {
                 definition.landmark = None;
             }
             markers.push(NamedMarker { name: (*name).to_owned(), definition });
