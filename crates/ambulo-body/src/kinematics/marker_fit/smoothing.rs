@@ -12,7 +12,7 @@
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
 //! A fit that need only be near the minimum keeps the factor of a step for the next ones, each with its own right-hand
-//! side, as long as the same coordinates are at the ends of their ranges: a solution costs a tenth of a factor.
+//! side, as long as that lowers the cost: a solution costs a tenth of a factor. The last step has a factor of its own.
 //!
 //! Long recordings are fitted in blocks that overlap, of which the inner parts are used: the prior reaches a few tenths
 //! of a second, and the matrix of all frames would take 26 kB per frame.
@@ -87,16 +87,10 @@ struct SmoothFit {
     stiffness: Vec<f64>,
 }
 
-/// The factor of a matrix, and the unknowns that it holds at the ends of their ranges.
-struct Factored {
-    factor: BandFactor,
-    held: Vec<bool>,
-}
-
 /// A step, and the factor that gave it.
 struct Step {
     step: Vec<f64>,
-    factored: Factored,
+    factor: BandFactor,
 }
 
 /// Blocks of a recording: the frames that are fitted together, and those of them that are used.
@@ -199,19 +193,20 @@ impl SmoothFit {
         let mut normal = Normal::new(&problem.tree);
         let mut total = self.cost(problem, &x);
         let (mut steps, mut converged) = (0, false);
-        let mut kept: Option<Factored> = None;
+        let mut kept: Option<BandFactor> = None;
         while steps < ending.steps && !converged {
-            let again = kept.take().and_then(|factored| self.next_step(problem, &mut normal, &x, factored));
+            let again = kept.take().and_then(|factor| self.next_step(problem, &mut normal, &x, factor));
             let is_new = again.is_none();
             let next = again.or_else(|| self.first_step(problem, &mut normal, &x, ending));
-            let Some(Step { step, factored }) = next else { break };
+            let Some(Step { step, factor }) = next else { break };
             let Some((next, after)) = self.walk(problem, &x, &step, total) else {
                 converged = is_new;
                 continue;
             };
             let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            converged = longest < ending.small_step || total - after < ending.small_gain * total;
-            kept = (!ending.newton).then_some(factored);
+            let is_small = longest < ending.small_step || total - after < ending.small_gain * total;
+            converged = is_small && is_new;
+            kept = (!ending.newton && !is_small).then_some(factor);
             (x, total) = (next, after);
             steps += 1;
         }
@@ -256,20 +251,18 @@ impl SmoothFit {
         newton.or_else(|| self.solve(problem, normal, x, 0.0, ending.damping))
     }
 
-    /// The step with a factor of earlier postures; `None` if other unknowns are at the ends of their ranges now.
+    /// The step with a factor of earlier postures.
     fn next_step(
         &self,
         problem: &mut FitProblem<'_>,
         normal: &mut Normal,
         x: &[f64],
-        factored: Factored,
+        factor: BandFactor,
     ) -> Option<Step> {
-        let mut right = self.right_side(problem, normal, x, |_, _, _| ());
-        if self.hold(problem, x, &mut right) != factored.held {
-            return None;
-        }
-        factored.factor.solve(&mut right);
-        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
+        let mut step = self.right_side(problem, normal, x, |_, _, _| ());
+        self.hold(problem, x, &mut step);
+        factor.solve(&mut step);
+        step.iter().all(|s| s.is_finite()).then_some(Step { step, factor })
     }
 
     fn solve(
@@ -305,8 +298,7 @@ impl SmoothFit {
         }
         let factor = matrix.factor()?;
         factor.solve(&mut right);
-        let factored = Factored { factor, held };
-        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factored })
+        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factor })
     }
 
     /// The right-hand side at these postures; `each` gets the first row of each frame, its normal equations and its
