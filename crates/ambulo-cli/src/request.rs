@@ -13,8 +13,9 @@ use crate::{Completion, commands};
 use ambulo::job::Job;
 use ambulo_results::Convention;
 use anyhow::{Context, Result, anyhow};
-use serde::{Deserialize, Deserializer};
-use serde_json::Value;
+use serde::Deserialize;
+use serde_json::de::SliceRead;
+use serde_json::{Deserializer, Value};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -230,7 +231,8 @@ impl Request {
     /// # Errors
     /// As there.
     pub fn of_value(value: &Value) -> Result<Request, Failure> {
-        Ok(Request::of(value)?)
+        // One reader for both: a second one is as much machine code again.
+        Ok(Request::of(&mut Deserializer::from_slice(value.to_string().as_bytes()), false)?)
     }
 
     /// The same request, with this job of every trial of a batch or session.
@@ -246,17 +248,21 @@ impl Request {
     }
 
     pub(crate) fn read(text: &[u8]) -> Result<Request> {
-        let mut reader = serde_json::Deserializer::from_slice(text);
-        let request = Request::of(&mut reader)?;
+        let mut reader = Deserializer::from_slice(text);
+        let request = Request::of(&mut reader, true)?;
         reader.end().context("expected one request")?;
         Ok(request)
     }
 
-    fn of<'de, D: Deserializer<'de, Error: fmt::Display>>(from: D) -> Result<Request> {
-        serde_path_to_error::deserialize(from).map(Request).map_err(|error| {
+    /// Errors state the line, if the user has seen the text.
+    fn of(reader: &mut Deserializer<SliceRead<'_>>, is_seen: bool) -> Result<Request> {
+        serde_path_to_error::deserialize(reader).map(Request).map_err(|error| {
             let place = Some(error.path().to_string()).filter(|path| path != ".");
             let place = place.map_or_else(String::new, |path| format!("`{path}`: "));
-            anyhow!("{place}{}. hint: docs/REQUESTS.md describes requests", error.inner())
+            let (wrong, cause) = (error.inner().to_string(), error.inner());
+            let line = format!(" at line {} column {}", cause.line(), cause.column());
+            let wrong = wrong.strip_suffix(&line).filter(|_| !is_seen).unwrap_or(&wrong);
+            anyhow!("{place}{wrong}. hint: docs/REQUESTS.md describes requests")
         })
     }
 
