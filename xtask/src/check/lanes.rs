@@ -14,8 +14,6 @@ use std::time::Instant;
 /// What all lanes know.
 pub(super) struct Lanes {
     children: Children,
-    /// Whether the crate of measurements is linted and tested.
-    measured: bool,
     progress: Mutex<Progress>,
     changed: Condvar,
 }
@@ -38,13 +36,8 @@ pub(super) struct Row {
 }
 
 impl Lanes {
-    pub(super) fn new(measured: bool) -> Lanes {
-        Lanes {
-            children: Children::new(),
-            measured,
-            progress: Mutex::new(Progress::default()),
-            changed: Condvar::new(),
-        }
+    pub(super) fn new() -> Lanes {
+        Lanes { children: Children::new(), progress: Mutex::new(Progress::default()), changed: Condvar::new() }
     }
 
     /// Runs lanes side by side up to the first failure, which stops all of them.
@@ -96,9 +89,6 @@ impl Lanes {
 
     /// Runs a step and prints its output. None if it was skipped.
     fn run_step(&self, step: &'static Step) -> Result<Option<Row>, String> {
-        if self.measured && step.name == super::measurements::STEP {
-            return Ok(None);
-        }
         if let Some(lacking) = step.tool.lacking() {
             print(&format!("[{}] skipped: {lacking} is not installed", step.name), b"");
             return Ok(None);
@@ -129,7 +119,7 @@ impl Lanes {
         if step.tool == Tool::TestPrograms {
             return programs::run_all(&list(), &self.children, &mut log);
         }
-        let mut command = step.command(self.measured);
+        let mut command = step.command();
         if step.tool.waits_little() {
             command = behind_others(&command);
         }

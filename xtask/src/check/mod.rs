@@ -8,14 +8,12 @@
 mod children;
 mod compiler;
 mod lanes;
-mod measurements;
 mod programs;
 mod shuffled;
 mod steps;
 
 use crate::workspace;
 use lanes::{Lanes, Row, seconds};
-use measurements::Decision;
 use std::fs;
 use std::time::Instant;
 use steps::{LANES, LONG, Step, TEST_PROGRAMS, TESTS};
@@ -43,13 +41,9 @@ fn check(full: bool) -> Result<(), String> {
     if std::env::var_os("CI").is_some() {
         all_present(LANES.iter().copied().flatten().chain(long))?;
     }
-    let decision = Decision::new(full);
-    let word = if decision.measured { "linted and tested" } else { "only compiled" };
-    println!("the crate of measurements is {word}: {}", decision.reason);
-    let lanes = Lanes::new(decision.measured);
+    let lanes = Lanes::new();
     lanes.run(&LANES)?;
     lanes.run(&[long])?;
-    decision.keep();
     let rows = &lanes.progress().rows;
     print!("{}", table(rows));
     print!("{}", slowest());
@@ -61,7 +55,7 @@ fn check(full: bool) -> Result<(), String> {
 fn shuffle(seed: &str) -> Result<(), String> {
     let seed = seed.parse().map_err(|_| format!("found the seed `{seed}`; expected a whole number, 0 or more"))?;
     let compile: Vec<&Step> = LANES.iter().copied().flatten().filter(|step| step.name == TEST_PROGRAMS).collect();
-    Lanes::new(true).run(&compile.into_iter().map(std::slice::from_ref).collect::<Vec<_>>())?;
+    Lanes::new().run(&compile.into_iter().map(std::slice::from_ref).collect::<Vec<_>>())?;
     shuffled::run(seed)
 }
 

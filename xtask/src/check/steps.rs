@@ -19,10 +19,10 @@ pub(super) const TESTS: &str = "tests";
 pub(super) enum Tool {
     /// In the root of the workspace.
     Cargo,
-    /// The same, with the compiler of `cargo clippy`: it finds what the lints have compiled, and compiles nothing anew.
-    CargoAfterClippy,
     /// The same, for the target of the browser.
     CargoForWasm,
+    /// The same, with the compiler of `cargo clippy`: it finds what the lints have compiled, and compiles nothing anew.
+    CargoAfterClippy,
     /// In `viewer/`.
     Npm,
     /// This program.
@@ -56,7 +56,7 @@ const PLAIN: Step = Step { name: "", tool: Tool::Cargo, arguments: &[], variable
 /// while they run, the other steps of all lanes use the processors that they leave.
 pub(super) const LANES: [Lane; 3] = [&COMPILED, &TESTED, &PAGES];
 
-const COMPILED: [Step; 8] = [
+const COMPILED: [Step; 6] = [
     Step { name: "format", arguments: &["fmt", "--all", "--", "--check"], hint: "run `cargo fmt --all`", ..PLAIN },
     Step {
         name: "house",
@@ -81,14 +81,22 @@ const COMPILED: [Step; 8] = [
     },
     Step {
         name: "lints",
+        tool: Tool::CargoForWasm,
+        // For the browser's target, so that one pass shows too that the libraries compile where `usize` has 32 bits. The
+        // members that are left out, and all test programs, were linted as they were compiled.
         arguments: &[
             "clippy",
             "--workspace",
-            // Not `--all-targets`, which compiles a library a second time for its unit tests, also where it has none.
-            // Not `--tests`: they are linted as they are compiled.
+            "--exclude",
+            "ambulo-py",
+            "--exclude",
+            "xtask",
+            "--exclude",
+            "xtask-measure",
             "--lib",
             "--bins",
-            "--examples",
+            "--target",
+            web::TARGET,
             "--locked",
             "--profile",
             PROFILE,
@@ -103,15 +111,19 @@ const COMPILED: [Step; 8] = [
     Step {
         name: "documentation",
         tool: Tool::CargoAfterClippy,
-        // With the examples, because what they need decides how dependencies are compiled, as in the lints.
         arguments: &[
             "doc",
             "--workspace",
+            "--exclude",
+            "ambulo-py",
+            "--exclude",
+            "xtask",
+            "--exclude",
+            "xtask-measure",
             "--lib",
-            "--bin",
-            "xtask*", // the page of the command would take that of the library
-            "--examples",
             "--no-deps",
+            "--target",
+            web::TARGET,
             "--locked",
             "--profile",
             PROFILE,
@@ -122,30 +134,6 @@ const COMPILED: [Step; 8] = [
             ("CLIPPY_ARGS", "-D__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__"),
         ],
         hint: "mend what rustdoc names; `RUSTDOCFLAGS=\"-D warnings\" cargo doc --no-deps` repeats this step",
-        ..PLAIN
-    },
-    Step {
-        name: super::measurements::STEP,
-        arguments: &["check", "--workspace", "--locked", "--profile", PROFILE],
-        hint: "the library has changed under xtask/measure; mend what the compiler names",
-        ..PLAIN
-    },
-    Step {
-        name: "32-bit target",
-        tool: Tool::CargoForWasm,
-        arguments: &[
-            "check",
-            "--package",
-            "ambulo-cli",
-            "--bin",
-            "ambulo",
-            "--target",
-            web::TARGET,
-            "--locked",
-            "--profile",
-            PROFILE,
-        ],
-        hint: "the command has to compile where `usize` has 32 bits, for the page in the browser (`cargo xtask web`)",
         ..PLAIN
     },
     Step {
@@ -276,8 +264,10 @@ impl Tool {
         let starts =
             |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
         match self {
-            Tool::Cargo | Tool::CargoAfterClippy | Tool::Xtask | Tool::TestPrograms => None,
-            Tool::CargoForWasm => (!web::has_target()).then_some("the target wasm32-wasip1 (`rustup target add`)"),
+            Tool::Cargo | Tool::Xtask | Tool::TestPrograms => None,
+            Tool::CargoForWasm | Tool::CargoAfterClippy => {
+                (!web::has_target()).then_some("the target wasm32-wasip1 (`rustup target add`)")
+            }
             Tool::Python => (!has_venv()).then_some("Python 3.11 or later with venv"),
             Tool::Npm => ["npm", "chromium"].into_iter().find(|name| !starts(name)),
         }
@@ -310,16 +300,9 @@ impl Tool {
 }
 
 impl Step {
-    /// The command of the step; the crate of measurements is left out if it is not `measured`.
-    pub(super) fn command(&self, measured: bool) -> Command {
+    pub(super) fn command(&self) -> Command {
         let mut command = self.tool.command();
-        for argument in self.arguments {
-            command.arg(argument);
-            if *argument == "--workspace" && !measured && self.name != super::measurements::STEP {
-                command.args(["--exclude", super::measurements::PACKAGE]);
-            }
-        }
-        command.envs(self.variables.iter().copied());
+        command.args(self.arguments).envs(self.variables.iter().copied());
         if self.arguments.first() == Some(&"test") {
             compiler::stand_in(&mut command);
         }
