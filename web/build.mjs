@@ -4,9 +4,9 @@
 // Every file but three has a hash of its content in its name, so a browser never mixes two versions: index.html, the manifest and the
 // service worker keep theirs.
 import { createHash } from "node:crypto";
-import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { dirname, extname, join } from "node:path";
+import { dirname, extname, join, relative, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { writeDocuments } from "./documents/documents.mjs";
@@ -95,15 +95,25 @@ const places = {
 };
 const html = readFileSync(join(here, "index.html"), "utf8").replace(/\{(\w+)\}/g, (_, name) => places[name]);
 files.set("index.html", html);
-const version = createHash("sha256")
-  .update([...files.keys()].join())
-  .update(html)
-  .digest("hex")
-  .slice(0, 12);
-const kept = ["./", ...files.keys()];
-files.set("offline.js", await script("offline", { CACHE: `ambulo-${version}`, FILES: kept }));
 
 rmSync(folder, { recursive: true, force: true });
+const gallery = process.env.AMBULO ? await drawGallery(process.env.AMBULO, join(folder, "documents")) : undefined;
+const documents = writeDocuments(join(folder, "documents"), { api: api !== undefined, gallery });
+/** What is kept in the browser, so that page and documents work offline; not the gallery, which is large. */
+const readable = readdirSync(join(folder, "documents"), { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile())
+  .map((entry) => relative(folder, join(entry.parentPath, entry.name)).split(sep).join("/"))
+  .filter((path) => !path.startsWith("documents/gallery/"))
+  .sort();
+const version = createHash("sha256")
+  .update([...files.keys()].join())
+  .update(html);
+for (const path of readable) {
+  version.update(path).update(readFileSync(join(folder, path)));
+}
+const kept = ["./", ...files.keys(), ...readable.map((path) => path.split("/").map(encodeURIComponent).join("/"))];
+const cache = `ambulo-${version.digest("hex").slice(0, 12)}`;
+files.set("offline.js", await script("offline", { CACHE: cache, FILES: kept }));
 mkdirSync(folder, { recursive: true });
 let bytes = 0;
 for (const [name, content] of files) {
@@ -116,6 +126,4 @@ process.stdout.write(`${folder}: ${files.size} files, ${(bytes / 1e6).toFixed(2)
 if (api) {
   cpSync(api, join(folder, "api"), { recursive: true });
 }
-const gallery = process.env.AMBULO ? await drawGallery(process.env.AMBULO, join(folder, "documents")) : undefined;
-const documents = writeDocuments(join(folder, "documents"), { api: api !== undefined, gallery });
 process.stdout.write(`${join(folder, "documents")}: ${documents} files\n`);

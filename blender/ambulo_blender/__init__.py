@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import tempfile
+import warnings
 from pathlib import Path
 
 import bpy
-import numpy as np
-from mathutils import Quaternion, Vector
 
 import ambulo
 
-from . import motion
-
-#: Length of an arrow, as in the GLB files of Ambulo [m/N].
-METRES_PER_NEWTON = 1e-3
-#: Largest rms distance of hips, knees and ankles of the figure from the bones [m]: forces are not shown elsewhere than the feet.
-FARTHEST = 0.1
-FEET = {"r": "right", "l": "left"}
+from . import arrows, motion
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -27,60 +20,20 @@ class Settings(bpy.types.PropertyGroup):
     height: bpy.props.FloatProperty(name="Height", description="Stature [m]; it gives the unit of the armature", default=1.75, min=0.5, max=2.5)
 
 
-def computed(armature: bpy.types.Object, settings: Settings, folder: Path, **options: object) -> ambulo.Result:
-    """Return the results of the armature's motion; ``armature.bvh`` stays in the folder."""
-    path = folder / "armature.bvh"
+def computed(armature: bpy.types.Object, settings: Settings, path: Path, **options: object) -> ambulo.Result:
+    """Return the results of the armature's motion, which is written to a BVH file."""
     motion.write_bvh(armature, path)
-    return ambulo.forces(path, mass=settings.mass, height=settings.height, **options)
-
-
-def show_forces(armature: bpy.types.Object, result: ambulo.Result) -> None:
-    """Draw the force on each foot as an arrow from the centre of pressure, a child of the armature."""
-    bones = motion.leg_bones(armature)
-    if len(bones) < 6:
-        missing = sorted({f"{body}_{side}" for body in motion.JOINTS for side in FEET} - set(bones))
-        raise ambulo.InputError(f"found no bones for {', '.join(missing)}; expected names such as RightUpLeg, RightLeg, RightFoot")
-    centres = motion.joint_centres(result, list(bones))
-    places = motion.heads(armature, list(bones.values()))
-    if len(centres) != len(places):
-        raise ambulo.InputError(f"found {len(centres)} frames of forces; expected {len(places)}, those of the scene")
-    scale, rotation, translation, apart = motion.similarity(centres.reshape(-1, 3), places.reshape(-1, 3))
-    if apart > FARTHEST * scale:
-        raise ambulo.InputError(f"the figure is {apart / scale:.2f} m from the bones of the legs; expected at most {FARTHEST} m")
-    for side, word in FEET.items():
-        columns = [[result.grf[f"ground_force_{side}_{part}{axis}"] for axis in "xyz"] for part in "vp"]
-        forces, points = (np.array(column).T for column in columns)
-        arrow = arrow_of(armature, f"{armature.name} force {word}")
-        key_arrow(arrow, METRES_PER_NEWTON * scale * forces @ rotation.T, scale * points @ rotation.T + translation)
-
-
-def arrow_of(armature: bpy.types.Object, name: str) -> bpy.types.Object:
-    """Return the arrow with this name, made if it does not exist."""
-    arrow = bpy.data.objects.get(name)
-    if arrow is None:
-        arrow = bpy.data.objects.new(name, None)
-        bpy.context.scene.collection.objects.link(arrow)
-    arrow.empty_display_type, arrow.empty_display_size = "SINGLE_ARROW", 1.0
-    arrow.parent, arrow.rotation_mode = armature, "QUATERNION"
-    arrow.animation_data_clear()
-    return arrow
-
-
-def key_arrow(arrow: bpy.types.Object, forces: np.ndarray, points: np.ndarray) -> None:
-    """Key length, direction and place of an arrow in every frame."""
-    first = bpy.context.scene.frame_start
-    last_turn = Quaternion()
-    for frame, (force, point) in enumerate(zip(forces, points, strict=True), first):
-        length = float(np.linalg.norm(force))
-        if length > 0:
-            last_turn, arrow.location = Vector(force).to_track_quat("Z", "Y"), point
-        arrow.rotation_quaternion, arrow.scale = last_turn, (length, length, length)
-        for path in ("location", "rotation_quaternion", "scale"):
-            arrow.keyframe_insert(path, frame=frame)
+    with warnings.catch_warnings():
+        # The operator reports them.
+        warnings.simplefilter("ignore", ambulo.AmbuloWarning)
+        return ambulo.forces(path, mass=settings.mass, height=settings.height, **options)
 
 
 class OfArmature:
-    """An operator on the active armature; errors of Ambulo are shown as Blender shows errors."""
+    """An operator on the active armature; errors of Ambulo are shown as Blender shows errors.
+
+    Everything is computed before anything in the file is changed, so an error changes nothing.
+    """
 
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012  as Blender wants it
 
@@ -88,20 +41,20 @@ class OfArmature:
     def poll(cls, context: bpy.types.Context) -> bool:
         """Whether an armature with a motion is active."""
         active = context.active_object
-        return active is not None and active.type == "ARMATURE" and active.animation_data is not None
+        return active is not None and active.type == "ARMATURE" and active.is_editable and active.animation_data is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute, and report the verdict."""
         try:
             with tempfile.TemporaryDirectory(prefix="ambulo-") as folder:
-                result = self.run(context.active_object, context.scene.ambulo, Path(folder))
+                result = self.run(context.active_object, context.scene.ambulo, Path(folder) / "armature.bvh")
         except (ambulo.AmbuloError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         for finding in result.findings:
             if finding["severity"] == "warning":
                 self.report({"WARNING"}, finding["message"])
-        self.report({"INFO"}, f"could a person make this motion? {result.verdict['state']}")
+        self.report({"INFO"}, f"Could a person make this motion? Answer: {result.verdict['state']}.")
         return {"FINISHED"}
 
 
@@ -111,10 +64,11 @@ class ShowForces(OfArmature, bpy.types.Operator):
     bl_idname = "ambulo.show_forces"
     bl_label = "Show Ground Forces"
 
-    def run(self, armature: bpy.types.Object, settings: Settings, folder: Path) -> ambulo.Result:
-        """Compute and draw."""
-        result = computed(armature, settings, folder)
-        show_forces(armature, result)
+    def run(self, armature: bpy.types.Object, settings: Settings, path: Path) -> ambulo.Result:
+        """Compute, then draw."""
+        result = computed(armature, settings, path)
+        forces = arrows.computed(armature, result)
+        arrows.draw(armature, forces)
         return result
 
 
@@ -124,11 +78,13 @@ class BakeCorrected(OfArmature, bpy.types.Operator):
     bl_idname = "ambulo.bake_corrected"
     bl_label = "Bake Corrected Motion"
 
-    def run(self, armature: bpy.types.Object, settings: Settings, folder: Path) -> ambulo.Result:
-        """Compute, bake and draw."""
-        result = computed(armature, settings, folder, consistent=True)
-        motion.bake(armature, motion.corrected_bvh(result, folder / "armature.bvh", folder))
-        show_forces(armature, result)
+    def run(self, armature: bpy.types.Object, settings: Settings, path: Path) -> ambulo.Result:
+        """Compute, then bake and draw."""
+        result = computed(armature, settings, path, consistent=True)
+        forces = arrows.computed(armature, result)
+        corrected = motion.corrected(armature, result, path)
+        motion.bake(armature, corrected)
+        arrows.draw(armature, forces)
         return result
 
 

@@ -19,6 +19,7 @@ export const ROLES = {
   device: "moments of a device",
   gait: "gait of a walk",
   scene: "scene to simulate",
+  trials: "statements about the trials",
   named: "named by another file",
   unused: "not used",
 } as const;
@@ -52,7 +53,7 @@ function beginning({ bytes }: Named): string {
   return new TextDecoder().decode(bytes.subarray(0, BEGINNING));
 }
 
-function ending({ name }: Named): string {
+function ending({ name }: Pick<Named, "name">): string {
   return name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 }
 
@@ -89,7 +90,7 @@ function roleOf(file: Named): Role {
     case "xml":
       return roleOfXml(beginning(file));
     case "toml":
-      return roleOfToml(beginning(file));
+      return file.name === "trials.toml" ? "trials" : roleOfToml(beginning(file));
     case "mot":
     case "sto":
     case "csv":
@@ -111,30 +112,61 @@ export async function withRoles(files: readonly Named[], walks: (file: Named) =>
       file.role = "named";
     }
   }
-  const markers = with_("recording").filter((file) => ["c3d", "trc"].includes(ending(file)));
+  const markers = with_("recording").filter(hasMarkers);
   if (markers.length > 1) {
     const walking = await Promise.all(markers.map(walks));
-    const recording = markers[Math.max(walking.indexOf(true), 0)];
-    const standing = markers.find((file, index) => !walking[index] && file !== recording);
-    for (const file of markers.filter((file) => file !== recording)) {
-      file.role = file === standing ? "static" : "unused";
+    const first = markers[Math.max(walking.indexOf(true), 0)];
+    const standing = markers.find((file, index) => !walking[index] && file !== first);
+    for (const [index, file] of markers.entries()) {
+      if (file !== first && !walking[index]) {
+        file.role = file === standing ? "static" : "unused";
+      }
     }
   }
   return out;
 }
 
+function hasMarkers(file: Pick<Named, "name">): boolean {
+  return ["c3d", "trc"].includes(ending(file));
+}
+
 /** The folder in which the command writes its results. */
 export const OUTPUT = "out";
 
-/** A number as typed; other text stays, so that the command refuses it with the name of its field. */
-function numberOf(typed: string): number | null {
-  const text = typed.trim();
-  const number = Number(text);
-  return text === "" ? null : Number.isFinite(number) ? number : (text as unknown as number);
+/** The folder of a visit, if its files were not dropped as a folder. */
+export const VISIT = "visit";
+
+/** Endings of files that the command reads: only these are taken from a dropped folder. */
+const READ = "b3d bvh c3d csv json mot mvnx npz osim sto toml trc tsv xml".split(" ");
+
+/** Whether a file of a dropped folder is taken. */
+export function isRead(name: string): boolean {
+  return !name.startsWith(".") && READ.includes(ending({ name }));
 }
 
-/** The request for these files. */
-export function requestFor(files: readonly Dropped[], stated: Stated): Request {
+/** A number as typed, in a field with this name. */
+function numberOf(name: string, typed: string, example: string): number | null {
+  const text = typed.trim();
+  const number = Number(text);
+  if (!Number.isFinite(number)) {
+    throw new Error(`${name}: found "${text}"; expected a number, such as ${example}.`);
+  }
+  return text === "" ? null : number;
+}
+
+/** Whether these files are a visit: several walks of one person. */
+export function isVisit(files: readonly Dropped[]): boolean {
+  return files.filter((file) => file.role === "recording" && hasMarkers(file)).length > 1;
+}
+
+/** The request for these files; those of a visit are in a folder with the name `visit`. */
+export function requestFor(files: readonly Dropped[], stated: Stated, visit: string = VISIT): Request {
+  const mass = numberOf("Body mass", stated.mass, "75");
+  const height = numberOf("Stature", stated.height, "1.75");
+  if (isVisit(files)) {
+    const own = { source: [visit], output: OUTPUT };
+    return { session: { own, job: { size: { mass_kg: mass, height_m: height } } } };
+  }
   const names = (role: Role): string[] => files.filter((file) => file.role === role).map(({ name }) => name);
   const only = (role: Role): string | null => {
     const [name, second] = names(role);
@@ -145,7 +177,6 @@ export function requestFor(files: readonly Dropped[], stated: Stated): Request {
     }
     return name ?? null;
   };
-  const [mass, height] = [numberOf(stated.mass), numberOf(stated.height)];
   const scene = only("scene");
   if (scene !== null) {
     return { simulate: { scene, output: OUTPUT } };

@@ -2,7 +2,9 @@
 
 import { Engine, forbidConnections, type Handling, Stopped } from "./engine";
 import { type Between, type Family, type Values, Walks } from "./family";
-import { type Dropped, type Named, OUTPUT, ROLES, type Role, requestFor, withRoles } from "./files";
+import { type Dropped, isVisit, type Named, OUTPUT, ROLES, type Role, requestFor, VISIT, withRoles } from "./files";
+import { droppedFiles } from "./folder";
+import { aboutMass, aboutOptions, aboutStature, inWordsOfThePage, nameOf } from "./mistake";
 import { Preview } from "./preview";
 import { Pushing } from "./pushing";
 import type { Request } from "./request";
@@ -18,13 +20,24 @@ declare const FAMILY: string;
 declare const OFFLINE: string;
 
 const OUT = `${OUTPUT}/`;
-const REPORT = "report.html";
+/** The page that is shown first: that of a visit or of a trial. */
+const FIRST = ["session.html", "report.html"];
 const SUMMARY = "summary.json";
 const DEMO: Request = { demo: { output: OUTPUT } };
 /** Enough to show the demo; all of its files are made when they are saved. */
 const ONLY_REPORT: Request = { demo: { keep: ["report"], output: OUTPUT } };
 /** Only so much may the report do; it cannot reach this page. */
 const SANDBOX = "allow-scripts allow-downloads allow-modals";
+
+/** What is computed, by the verb of the request. */
+const WORK: Record<string, string> = {
+  demo: "the demo walk",
+  forces: "the forces of the recording",
+  session: "the session of all walks",
+  simulate: "the simulation",
+  walk: "the walk",
+};
+const SECOND_MS = 1000;
 
 /** A browser has begun to save a file after so long. */
 const SAVING_MS = 10_000;
@@ -33,7 +46,8 @@ const SAVING_MS = 10_000;
 interface Shown {
   /** For the names of saved files. */
   name: string;
-  report: Uint8Array | undefined;
+  /** The page that is shown, by its name in the result folder. */
+  report: string | undefined;
   /** Files of the result folder. */
   files: Files;
   /** The request that makes all files, if these are not all. */
@@ -51,9 +65,8 @@ function byId<T extends HTMLElement = HTMLElement>(id: string): T {
 const field = (id: string): HTMLInputElement => byId<HTMLInputElement>(id);
 const control = (id: string): HTMLButtonElement => byId<HTMLButtonElement>(id);
 
-/** The shown result: the report, a walk in between, or a walker who can be pushed. */
-const VIEWS = ["page", "preview", "stage"] as const;
-type View = (typeof VIEWS)[number];
+/** The shown result: the report, a walk in between above it, or a walker who can be pushed. */
+type View = "page" | "preview" | "stage";
 
 /** The page's state. */
 class Page {
@@ -62,9 +75,13 @@ class Page {
   /** Roles that the visitor chose, by file. */
   private readonly chosen = new Map<string, Role>();
   private shown: Shown | undefined;
+  /** Name of the folder that was dropped. */
+  private folder = VISIT;
   /** The request of which the command line is shown. */
-  private lined: string | undefined;
+  private lined = 0;
   private running = false;
+  /** Whether another walk than the shown one is asked for. */
+  private stale = false;
   /** A walk that was asked for while another command runs. */
   private next: Request | undefined;
   private view: View = "page";
@@ -92,13 +109,14 @@ class Page {
 
   constructor() {
     field("files").addEventListener("change", () => {
-      this.add([...(field("files").files ?? [])]);
+      this.reading(this.add([...(field("files").files ?? [])]));
       field("files").value = "";
     });
     this.takeDrops();
     for (const id of ["mass", "height", "more"]) {
-      field(id).addEventListener("input", () => this.refresh());
+      field(id).addEventListener("input", () => this.changed());
     }
+    byId<HTMLSelectElement>("pages").addEventListener("change", () => this.showPage());
     byId("options").addEventListener("submit", (event) => {
       event.preventDefault();
       this.compute();
@@ -146,17 +164,34 @@ class Page {
     document.addEventListener("dragleave", over(false));
     document.addEventListener("drop", (event) => {
       over(false)(event);
-      this.add([...(event.dataTransfer?.files ?? [])]);
+      // The files are named before this event ends.
+      const dropped = droppedFiles(event.dataTransfer);
+      this.reading(dropped.then(({ files, folder }) => this.add(files, folder)));
     });
   }
 
-  private async add(dropped: File[]): Promise<void> {
+  /** Shows why files could not be read. */
+  private async reading(work: Promise<void>): Promise<void> {
+    try {
+      await work;
+    } catch (thrown) {
+      this.fail(`The files could not be read: ${thrown instanceof Error ? thrown.message : thrown}`);
+    }
+  }
+
+  private async add(dropped: File[], folder?: string): Promise<void> {
     const read = await Promise.all(
       dropped.map(async (file): Promise<Named> => {
         return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
       }),
     );
+    const names = read.map(({ name }) => name);
+    const twice = names.find((name, index) => names.indexOf(name) !== index);
+    if (twice !== undefined) {
+      throw new Error(`found two files with the name ${twice}; expected different names. Drop them one by one.`);
+    }
     const others = this.files.filter(({ name }) => read.every((file) => file.name !== name));
+    this.folder = folder ?? VISIT;
     await this.take([...others, ...read]);
     this.open(true);
   }
@@ -166,7 +201,22 @@ class Page {
     const guessed = await withRoles(files, (file) => this.walks(file));
     this.files = guessed.map((file) => ({ ...file, role: this.chosen.get(file.name) ?? file.role }));
     this.list();
+    this.changed();
+  }
+
+  /** The input is another one: an error about the input before goes away. */
+  private changed(): void {
+    this.forgive();
     this.refresh();
+  }
+
+  /** Hides the error and the mark of the field that it is about. */
+  private forgive(): void {
+    byId("error").hidden = true;
+    for (const marked of document.querySelectorAll("[aria-invalid]")) {
+      marked.removeAttribute("aria-invalid");
+      marked.removeAttribute("aria-errormessage");
+    }
   }
 
   /** Whether a foot strikes or leaves the ground in a recording. The computation decides the rest. */
@@ -193,7 +243,7 @@ class Page {
       select.addEventListener("change", () => {
         file.role = select.value as Role;
         this.chosen.set(file.name, file.role);
-        this.refresh();
+        this.changed();
       });
       const remove = document.createElement("button");
       remove.type = "button";
@@ -214,28 +264,18 @@ class Page {
     byId("list").replaceChildren(...rows);
   }
 
-  /** The request for these files, with what the visitor states. */
-  private request(files: readonly Dropped[]): Request {
-    return requestFor(files, { mass: field("mass").value, height: field("height").value });
-  }
-
-  /** Shows the command line that computes the same in a terminal. */
-  private async showLine(): Promise<void> {
-    const isDemo = this.files.length === 0;
-    const options = isDemo ? "" : field("more").value;
+  /** Shows the command line of a request that was run. */
+  private async showLine(request: Request, options = ""): Promise<void> {
+    const number = ++this.lined;
     try {
-      const request = isDemo ? DEMO : this.request(this.files);
-      const asked = JSON.stringify([request, options]);
-      if (this.engine && asked !== this.lined) {
-        this.lined = asked;
-        const { printed, complained } = await this.engine.run(request, new Map(), { options, print: "--words" });
-        if (this.lined === asked) {
-          byId("line").textContent = printed.trim() || complained.trim();
-        }
+      const ended = await this.engine?.run(request, new Map(), { options, print: "--words" });
+      if (number === this.lined) {
+        byId("line").textContent = ended?.printed.trim() ?? "";
+        byId("terminal").hidden = !ended?.printed;
       }
-    } catch (thrown) {
-      this.lined = undefined;
-      byId("line").textContent = thrown instanceof Stopped ? "" : String(thrown);
+    } catch {
+      // The visitor stopped this and all that waited; the next run shows its own.
+      byId("terminal").hidden = true;
     }
   }
 
@@ -243,7 +283,9 @@ class Page {
     const ready = this.engine !== undefined && !this.running;
     control("compute").disabled = !ready || this.files.length === 0;
     control("demo").disabled = !ready;
-    control("stop").hidden = !this.running;
+    byId("progress").hidden = !this.running;
+    byId("page").classList.toggle("stale", this.stale || this.running);
+    byId("result").setAttribute("aria-busy", String(this.running));
     for (const part of document.querySelectorAll<HTMLInputElement | HTMLButtonElement>("#walk :is(input, button)")) {
       part.disabled = this.engine === undefined;
     }
@@ -252,10 +294,6 @@ class Page {
     }
     control("save-report").disabled = this.running || !this.shown?.report;
     control("save-all").disabled = this.running || !this.shown;
-    // After a computation, which keeps the command busy.
-    if (!this.running) {
-      this.showLine();
-    }
   }
 
   /** Opens or closes the input, which shares a narrow screen with the result. */
@@ -266,13 +304,23 @@ class Page {
 
   private async demo(): Promise<void> {
     await this.run(ONLY_REPORT, new Map(), { name: "demo", all: DEMO });
+    this.sliders.restore();
   }
 
-  /** Shows a walk that is interpolated, until the exact one is solved. */
+  /** Shows a walk that is interpolated above the report of another one, until the exact one is solved. */
   private preview(values: Values): Between | undefined {
-    const walk = this.previews?.show(values);
-    if (this.view !== "preview") {
+    this.forgive();
+    this.stale = true;
+    const begins = this.view !== "preview";
+    if (begins) {
       this.see("preview");
+    }
+    const walk = this.previews?.show(values);
+    if (!walk) {
+      this.say("No walk near these values was solved beforehand. Release the slider, and the walk is solved.");
+    }
+    this.refresh();
+    if (begins) {
       // On a narrow screen, sliders and preview share it from now on.
       document.activeElement?.scrollIntoView({ block: "center" });
     }
@@ -282,18 +330,19 @@ class Page {
   private see(view: View): void {
     this.view = view;
     document.body.dataset["view"] = view;
-    for (const id of VIEWS) {
-      byId(id).hidden = id !== view;
-    }
+    byId("preview").hidden = view !== "preview";
+    byId("stage").hidden = view !== "stage";
+    byId("page").hidden = view === "stage";
   }
 
   /** The results of a scene for the walker; none if the visitor stopped it or it failed. */
   private async simulate(scene: string): Promise<Files | undefined> {
-    const request: Request = { simulate: { scene: SCENE, keep: [KEPT], output: OUTPUT } };
+    const request: Request = { simulate: { scene: SCENE, keep: KEPT, output: OUTPUT } };
     const ended = await this.command(request, new Map([[SCENE, new TextEncoder().encode(scene)]]));
     if (ended && ended.code > 1) {
       this.fail(ended.complained.trim());
     } else if (ended) {
+      this.showLine(request);
       this.say("The walker's walk is computed.");
     }
     return ended && ended.code <= 1 ? results(ended) : undefined;
@@ -312,10 +361,12 @@ class Page {
   private async compute(): Promise<void> {
     const used = this.files.filter(({ role }) => role !== "unused");
     const main = used.find(({ role }) => role === "recording") ?? used[0];
-    const files = new Map(used.map(({ name, bytes }) => [name, bytes]));
-    const name = main?.name.replace(/\.[^.]*$/, "") ?? "result";
+    const isOfVisit = isVisit(used);
+    const folder = isOfVisit ? `${this.folder}/` : "";
+    const files = new Map(used.map(({ name, bytes }) => [folder + name, bytes]));
+    const name = isOfVisit ? this.folder : (main?.name.replace(/\.[^.]*$/, "") ?? "result");
     try {
-      const request = this.request(used);
+      const request = requestFor(used, { mass: field("mass").value, height: field("height").value }, this.folder);
       await this.run(request, files, { name, all: undefined }, { options: field("more").value });
     } catch (thrown) {
       this.fail(thrown instanceof Error ? thrown.message : String(thrown));
@@ -332,15 +383,20 @@ class Page {
     const ended = await this.command(request, files, handling);
     if (ended) {
       this.show(ended, shown, (performance.now() - start) / 1000);
-      this.refresh();
+      this.showLine(shown.all ?? request, handling.options);
     }
     if (this.next) {
       const next = this.next;
       this.next = undefined;
       await this.walk(next);
-    } else if (this.view === "preview") {
+      return;
+    }
+    if (this.view === "preview") {
       this.see("page");
     }
+    this.stale = false;
+    this.sliders.restore();
+    this.refresh();
   }
 
   /** Runs a command; none if another one runs, if the visitor stops it, or if it ends early. */
@@ -349,7 +405,9 @@ class Page {
       return undefined;
     }
     this.running = true;
-    this.say(`Computing: ambulo ${Object.keys(request).join()} ...`);
+    this.forgive();
+    this.say(`Computing ${WORK[Object.keys(request).join()] ?? ""} ...`);
+    const timer = this.countSeconds();
     this.refresh();
     try {
       return await this.engine.run(request, files, handling);
@@ -361,32 +419,40 @@ class Page {
       }
       return undefined;
     } finally {
+      clearInterval(timer);
       this.running = false;
       this.refresh();
     }
   }
 
+  /** Shows how long a computation takes; not in the status, which a screen reader would read every second. */
+  private countSeconds(): number {
+    const start = performance.now();
+    const show = (): void => {
+      byId("seconds").textContent = `${((performance.now() - start) / SECOND_MS).toFixed(0)} s`;
+    };
+    show();
+    return setInterval(show, SECOND_MS) as unknown as number;
+  }
+
   private show(ended: Ended, { name, all }: Pick<Shown, "name" | "all">, seconds: number): void {
     const { code, printed, complained } = ended;
     const files = results(ended);
-    const report = [...files].find(([path]) => path.endsWith(REPORT))?.[1];
+    const pages = [...files.keys()].filter((path) => path.endsWith(".html"));
+    const report = FIRST.find((name) => pages.includes(name)) ?? pages[0];
     byId("said").hidden = false;
     byId<HTMLTextAreaElement>("printed").value = `${complained}${printed}`.trim();
     if (code > 1 || files.size === 0) {
       this.fail(complained.trim() || printed.trim() || `exit code ${code}`);
       return;
     }
-    byId("error").hidden = true;
     this.see("page");
     this.shown = { name, report, files, all };
-    const isShown = (): void => {
-      performance.mark("shown");
-      document.documentElement.dataset["shown"] = name;
-    };
-    byId("page").replaceChildren(...(report ? [frame(report, name, isShown)] : []));
-    if (!report) {
-      isShown();
-    }
+    this.stale = false;
+    const choice = byId<HTMLSelectElement>("pages");
+    choice.replaceChildren(...pages.map((path) => new Option(path.replace(/^.*\//, ""), path, false, path === report)));
+    byId("choice").hidden = pages.length < 2;
+    this.showPage();
     const summary = files.get(SUMMARY);
     if (summary) {
       this.sliders.take(JSON.parse(new TextDecoder().decode(summary)));
@@ -395,12 +461,49 @@ class Page {
     this.open(false);
   }
 
+  /** Shows the chosen page of the result. */
+  private showPage(): void {
+    if (!this.shown) {
+      return;
+    }
+    const { name, files } = this.shown;
+    const isShown = (): void => {
+      performance.mark("shown");
+      document.documentElement.dataset["shown"] = name;
+    };
+    this.shown.report = byId<HTMLSelectElement>("pages").value || undefined;
+    const report = files.get(this.shown.report ?? "");
+    byId("page").replaceChildren(...(report ? [frame(report, name, isShown)] : []));
+    if (!report) {
+      isShown();
+    }
+  }
+
+  /** Shows an error and marks the field or file that it is about. */
   private fail(message: string): void {
     const error = byId("error");
     error.hidden = false;
-    error.textContent = message;
+    error.textContent = inWordsOfThePage(message);
+    const about = this.fieldOf(message);
+    about?.setAttribute("aria-invalid", "true");
+    about?.setAttribute("aria-errormessage", "error");
     this.say(this.shown ? `Nothing was computed. Below is still: ${this.shown.name}.` : "Nothing was computed.");
     this.open(false);
+  }
+
+  /** The field or file that an error is about. */
+  private fieldOf(message: string): HTMLElement | undefined {
+    if (aboutOptions(message, field("more").value)) {
+      return field("more");
+    }
+    if (aboutMass(message)) {
+      return field("mass");
+    }
+    if (aboutStature(message)) {
+      return field("height");
+    }
+    const index = this.files.findIndex(({ name }) => name === nameOf(message));
+    return document.querySelectorAll<HTMLElement>("#list select")[index];
   }
 
   private say(text: string): void {
@@ -408,8 +511,9 @@ class Page {
   }
 
   private saveReport(): void {
-    if (this.shown?.report) {
-      save(new Blob([this.shown.report as Uint8Array<ArrayBuffer>], { type: "text/html" }), `${this.shown.name}.html`);
+    const report = this.shown?.files.get(this.shown.report ?? "");
+    if (report) {
+      save(new Blob([report as Uint8Array<ArrayBuffer>], { type: "text/html" }), `${this.shown?.name}.html`);
     }
   }
 

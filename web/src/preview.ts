@@ -1,5 +1,6 @@
 // The walk while a slider moves: interpolated curves with their error, and the figure that walks.
 
+import { arrow } from "./arrow";
 import { type Between, POINTS, QUANTITIES, type Values, type Walks } from "./family";
 
 /** A panel: a curve of the family and its words. */
@@ -128,6 +129,20 @@ class Chart {
 
 type Place = readonly [x: number, y: number];
 
+/** Half the width of the body at joints, as shares of the leg: the figure is a picture, not a part of the model. */
+const WIDTHS: Record<string, number> = { hip: 0.095, knee: 0.06, ankle: 0.038, ball: 0.022 };
+const TRUNK = { hip: 0.13, shoulder: 0.14, neck: 0.05 };
+
+/** The outline of a part of the body between two joints with half widths there: two circles and their tangents. */
+function limb(from: Place, to: Place, wide: number, narrow: number): string {
+  const [x, y] = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(x, y) || 1;
+  const [u, v] = [-y / length, x / length];
+  const at = ([a, b]: Place, by: number): string => `${(a + by * u).toFixed(3)} ${(b + by * v).toFixed(3)}`;
+  const round = (radius: number): string => `A${radius} ${radius} 0 0 0`;
+  return `M${at(from, wide)}L${at(to, narrow)}${round(narrow)} ${at(to, -narrow)}L${at(from, -wide)}${round(wide)} ${at(from, wide)}Z`;
+}
+
 /** The figure in the sagittal plane. */
 class Figure {
   private readonly drawing: SVGSVGElement;
@@ -137,6 +152,8 @@ class Figure {
   private readonly head: SVGElement;
   private readonly arrows: Record<"left" | "right", SVGElement>;
   private curves = new Map<string, Float64Array>();
+  /** [m] */
+  private leg = 1;
 
   constructor(parent: Element) {
     this.drawing = drawn(parent, "svg", { class: "figure", role: "img" });
@@ -145,14 +162,15 @@ class Figure {
     drawn(this.tilted, "line", { class: "ground", x1: -2 * HALF_M, x2: 2 * HALF_M, y1: 0, y2: 0 });
     this.marks = drawn(this.tilted, "path", { class: "ground" });
     const part = (name: string): SVGElement => drawn(this.tilted, "path", { class: name });
-    this.arrows = { left: part("left arrow"), right: part("right arrow") };
     this.parts = { left: part("left"), trunk: part("trunk"), right: part("right") };
-    this.head = drawn(this.tilted, "circle", { class: "trunk" });
+    this.head = drawn(this.tilted, "ellipse", { class: "trunk" });
+    this.arrows = { left: part("left arrow"), right: part("right arrow") };
   }
 
   take(walk: Between, slope: number): void {
     const names = QUANTITIES.map(({ name }) => name).filter((name) => /_[xy]$|^ground_force/.test(name));
     this.curves = new Map(names.map((name) => [name, walk.curve(name)]));
+    this.leg = walk.leg;
     const top = 2.15 * walk.leg;
     const half = HALF_M;
     this.drawing.setAttribute("viewBox", `${-half} ${-top} ${2 * half} ${top + 0.3}`);
@@ -182,17 +200,28 @@ class Figure {
       ["right", share],
       ["left", share + 0.5],
     ] as const) {
-      this.parts[side].setAttribute(
-        "d",
-        pathOf(["hip", "knee", "ankle", "ball"].map((joint) => this.place(joint, at))),
-      );
+      const joints = Object.entries(WIDTHS).map(([joint, width]) => [this.place(joint, at), width * this.leg] as const);
+      const limbs = joints.slice(1).map(([to, narrow], index) => {
+        const [from, wide] = joints[index] ?? [to, narrow];
+        return limb(from, to, wide, narrow);
+      });
+      this.parts[side].setAttribute("d", limbs.join(""));
       this.arrows[side].setAttribute("d", this.arrow(at));
     }
     const [hip, shoulder] = [middle("hip"), middle("shoulder")];
     const [x, y] = [shoulder[0] - hip[0], shoulder[1] - hip[1]];
-    this.parts.trunk.setAttribute("d", pathOf([hip, shoulder]));
-    this.head.setAttribute("transform", `translate(${shoulder[0] + 0.42 * x} ${shoulder[1] + 0.42 * y})`);
-    this.head.setAttribute("r", String(0.22 * Math.hypot(x, y)));
+    const along = (share: number): Place => [shoulder[0] + share * x, shoulder[1] + share * y];
+    const [wide, narrow, neck] = [TRUNK.hip, TRUNK.shoulder, TRUNK.neck].map((share) => share * this.leg) as [
+      number,
+      number,
+      number,
+    ];
+    const trunk = limb(hip, shoulder, wide, narrow) + limb(shoulder, along(0.4), neck, neck);
+    this.parts.trunk.setAttribute("d", trunk);
+    const tilt = (Math.atan2(x, -y) * 180) / Math.PI;
+    this.head.setAttribute("transform", `translate(${along(0.5).join(" ")}) rotate(${tilt})`);
+    this.head.setAttribute("rx", String(0.17 * Math.hypot(x, y)));
+    this.head.setAttribute("ry", String(0.23 * Math.hypot(x, y)));
     const first = -(walked % MARK_M) - 4 * MARK_M;
     const marks = Array.from({ length: 9 }, (_, index) => first + index * MARK_M);
     this.marks.setAttribute("d", marks.map((mark) => `M${mark} 0l-0.05 0.08`).join(""));
@@ -203,14 +232,7 @@ class Figure {
     if (up < LIGHT) {
       return "";
     }
-    const from: Place = [this.value("pressure_x", share), 0];
-    const to: Place = [from[0] + ARROW_M * forward, -ARROW_M * up];
-    const [x, y] = [to[0] - from[0], to[1] - from[1]];
-    const wing = (turn: number): Place => {
-      const length = 0.06 / Math.hypot(x, y);
-      return [to[0] - length * (x - turn * y), to[1] - length * (y + turn * x)];
-    };
-    return `${pathOf([from, to])}${pathOf([wing(0.5), to, wing(-0.5)])}`;
+    return arrow([this.value("pressure_x", share), 0], [ARROW_M * forward, -ARROW_M * up]);
   }
 }
 
@@ -242,19 +264,17 @@ export class Preview {
     });
   }
 
-  /** Shows the walk with these values, while the element is not hidden, and returns it; none if no walks near it were solved beforehand. */
+  /** Shows the walk with these values and returns it; hides the preview and returns none if no walks near it were solved beforehand. */
   show(values: Values): Between | undefined {
     const walk = this.walks.at(values);
     const begins = this.element.hidden || !this.walk;
     this.walk = walk;
     this.speed = values.speed;
-    this.drawings.hidden = !walk;
+    this.element.hidden = !walk;
     const source = `between walks that were solved beforehand${values.slope === 0 ? "" : " (predicted, on a slope)"}`;
     say(
       this.note,
-      walk
-        ? `Preview, interpolated ${source}. Right leg over its cycle; the left leg does the same half a cycle later. ±: difference from exact walks, measured nearby (root mean square, and largest). BW: body weights.`
-        : "No walks near these values were solved beforehand.",
+      `Preview, interpolated ${source}, without arms. Right leg over its cycle; the left leg does the same half a cycle later. ±: difference from exact walks, measured nearby (root mean square, and largest). BW: body weights.`,
     );
     if (walk) {
       for (const chart of this.charts) {

@@ -37,8 +37,10 @@ const REST_MS = 300;
 
 /** The sliders of the page. */
 export class Sliders {
-  private readonly moved = new Set<Option>();
+  private moved = new Set<Option>();
   private timer = 0;
+  /** Values and moved sliders of the walk that is shown. */
+  private shown: { values: Map<Option, string>; moved: Set<Option> } | undefined;
 
   /** `preview` is called while a slider moves, `compute` with the request when it is released. */
   constructor(
@@ -80,6 +82,18 @@ export class Sliders {
       }
       this.label(slider);
     }
+    const values = SLIDERS.map((slider) => [slider.option, this.input(slider).value] as const);
+    this.shown = { values: new Map(values), moved: new Set(this.moved) };
+  }
+
+  /** Goes back to the values of the walk that is shown, after another one was given up. */
+  restore(): void {
+    clearTimeout(this.timer);
+    for (const slider of this.shown ? SLIDERS : []) {
+      this.input(slider).value = this.shown?.values.get(slider.option) ?? "";
+      this.label(slider);
+    }
+    this.moved = new Set(this.shown?.moved);
   }
 
   /** A step length that the visitor did not set is that of the walk. */

@@ -1,5 +1,6 @@
 // Plays a simulated walk, seen from the side, and takes pushes: by dragging, or by buttons.
 
+import { arrow } from "./arrow";
 import { type Moving, type Run, valueAt } from "./walker";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -7,6 +8,8 @@ const SVG = "http://www.w3.org/2000/svg";
 const [HIGH_M, WIDE_M, BELOW_M] = [2.1, 4, 0.15];
 /** Distance of the marks on the ground [m]. */
 const MARK_M = 0.5;
+/** Length of the arrow of a force [m/N], and the smallest force that has one [N]. */
+const [METRES_PER_NEWTON, LIGHT_N] = [1e-3, 20];
 /** A drag over this distance is a ball that is 1 m/s faster than the walker [m]. */
 const DRAG_M = 0.12;
 /** Shorter drags are none [m/s]. */
@@ -21,11 +24,19 @@ function drawn(parent: Element, tag: string, attributes: Record<string, string |
   return element;
 }
 
+/** A number at the last instant before a time: forces jump, and their place with them. */
+function at({ times }: Run, values: readonly number[] | undefined, time: number): number {
+  const last = times.length - 1;
+  const index = Math.floor(Math.min(Math.max((time * last) / (times[last] ?? 1), 0), last) + 1e-9);
+  return values?.[index] ?? 0;
+}
+
 /** The picture of a walk. */
 export class Stage {
   private readonly drawing: SVGSVGElement;
   private readonly marks: SVGElement;
   private readonly people: SVGElement;
+  private readonly forces: SVGElement[];
   private readonly arrow: SVGElement;
   private run: Run | undefined;
   private shapes: [Moving, SVGElement][] = [];
@@ -46,11 +57,12 @@ export class Stage {
       class: "scene",
       viewBox: `0 ${BELOW_M - HIGH_M} ${WIDE_M} ${HIGH_M}`,
       role: "img",
-      "aria-label": "The walker from his right side; drag forwards or backwards to push him",
+      "aria-label": "The walker from the right side, with the ground forces; drag forwards or backwards to push",
     }) as SVGSVGElement;
     drawn(this.drawing, "line", { class: "floor", x1: -WIDE_M, x2: 2 * WIDE_M, y1: 0, y2: 0 });
     this.marks = drawn(this.drawing, "path", { class: "floor" });
     this.people = drawn(this.drawing, "g", {});
+    this.forces = ["trunk", "r", "l"].map((kind) => drawn(this.drawing, "path", { class: `force ${kind}` }));
     this.arrow = drawn(this.drawing, "path", { class: "drag" });
     this.takeDrags();
   }
@@ -81,7 +93,7 @@ export class Stage {
     this.shapes = bodies.map((body) => {
       const kind = body.name.includes("/") ? (body.side ?? "trunk") : "ball";
       const group = drawn(this.people, "g", { class: kind });
-      for (const { from, to, radius } of body.capsules) {
+      for (const { from, to, radius } of body.capsules.filter(({ sphere }) => kind === "ball" || !sphere)) {
         const ends = { x1: from[0], y1: -from[1], x2: to[0] + 1e-6, y2: -to[1] };
         drawn(group, "line", { ...ends, "stroke-width": 2 * radius });
       }
@@ -139,6 +151,14 @@ export class Stage {
       ];
       const turned = (-angle * 180) / Math.PI;
       group.setAttribute("transform", `translate(${x - this.seenFrom} ${-y}) rotate(${turned})`);
+    }
+    for (const [index, path] of this.forces.entries()) {
+      const force = run.ground[index];
+      const [x, y, forward, up] = [force?.x, force?.y, force?.forward, force?.up].map((of) => at(run, of, this.time));
+      const isShown = Math.hypot(forward ?? 0, up ?? 0) > LIGHT_N;
+      const from = [(x ?? 0) - this.seenFrom, -(y ?? 0)] as const;
+      const by = [METRES_PER_NEWTON * (forward ?? 0), -METRES_PER_NEWTON * (up ?? 0)] as const;
+      path.setAttribute("d", isShown ? arrow(from, by) : "");
     }
     const first = Math.ceil(this.seenFrom / MARK_M) * MARK_M - this.seenFrom - MARK_M;
     const marks = Array.from({ length: WIDE_M / MARK_M + 2 }, (_, index) => first + index * MARK_M);

@@ -5,10 +5,11 @@ import type { Files } from "./wasi";
 /** Name of the scene's file. */
 export const SCENE = "walker.toml";
 /** Outputs that are drawn. */
-export const KEPT = "poses";
+export const KEPT = ["poses", "contacts"];
 export const DURATION_S = 12;
 
 const WALKER = "walker";
+const FLOOR = "floor";
 const TORSO = `${WALKER}/torso`;
 /** Radius of the sphere in the trunk that balls hit, and of a ball [m]. */
 const [TRUNK_M, BALL_M] = [0.12, 0.1];
@@ -55,7 +56,7 @@ friction = 0
 restitution = 1
 
 [[obstacle]]
-name = "floor"
+name = "${FLOOR}"
 kind = "plane"
 
 [[figure]]
@@ -73,6 +74,8 @@ ${balls.map(body).join("")}${ignored.join("")}`;
 
 /** A line with round ends in a body, seen from the side [m]. */
 export interface Capsule {
+  /** Spheres of a walker are no part of the figure: they are where it can touch balls and the ground. */
+  sphere: boolean;
   from: readonly [x: number, y: number];
   to: readonly [x: number, y: number];
   radius: number;
@@ -90,10 +93,21 @@ export interface Moving {
   speed: number[];
 }
 
+/** The force of the ground on a leg, or on the rest of the body of a walker who lies on it. */
+export interface GroundForce {
+  side: "r" | "l" | null;
+  /** Centre of pressure [m] and force [N] at each instant; zero without contact. */
+  x: number[];
+  y: number[];
+  forward: number[];
+  up: number[];
+}
+
 /** A simulated walk. */
 export interface Run {
   times: number[];
   bodies: Moving[];
+  ground: GroundForce[];
   /** The program's message about a fall; none if the walker is up at the end. */
   fall: string | undefined;
 }
@@ -124,7 +138,9 @@ export function readRun(files: Files): Run {
   const flat = ([x = 0, y = 0]: number[]): readonly [number, number] => [x, y];
   const moving = shapes.bodies.map(({ name, side, shapes }): Moving => {
     const round = shapes.filter(({ from, to }) => from && to);
-    const capsules = round.map(({ from, to, radius }) => ({ from: flat(from), to: flat(to), radius }));
+    const capsules = round.map(({ from, to, radius }): Capsule => {
+      return { from: flat(from), to: flat(to), radius, sphere: from.every((place, axis) => place === to[axis]) };
+    });
     return { name, side, capsules, x: [], y: [], angle: [], speed: [] };
   });
   const bodies = new Map(moving.map((body) => [body.name, body]));
@@ -143,7 +159,34 @@ export function readRun(files: Files): Run {
   }
   const { findings }: Summary = JSON.parse(text(files, "summary.json"));
   const fell = findings.find(({ code }) => code === "figure.fell")?.message;
-  return { times, bodies: moving, fall: fell?.replaceAll("`", "").replace(WALKER, "The walker") };
+  const ground = groundForces(text(files, "contacts.csv"), times, bodies);
+  return { times, bodies: moving, ground, fall: fell?.replaceAll("`", "").replace(WALKER, "The walker") };
+}
+
+/** Sums the contacts with the ground of each leg, and of the rest of the walker. */
+function groundForces(contacts: string, times: readonly number[], bodies: ReadonlyMap<string, Moving>): GroundForce[] {
+  const none = (): number[] => times.map(() => 0);
+  const found = ([null, "r", "l"] as const).map(
+    (side): GroundForce => ({ side, x: none(), y: none(), forward: none(), up: none() }),
+  );
+  const at = new Map(times.map((time, index) => [time, index]));
+  for (const line of contacts.trim().split("\n").slice(1)) {
+    const [time, , first = "", second = "", x, y, , , , , fx, fy] = line.split(",");
+    // The force is the one on the first body.
+    const [name, sign] = first === FLOOR ? [second, -1] : [first, 1];
+    const index = at.get(Number(time));
+    const force = found.find(({ side }) => side === bodies.get(name)?.side);
+    if (!force || index === undefined || (first !== FLOOR && second !== FLOOR)) {
+      continue;
+    }
+    const [before, up] = [force.up[index] ?? 0, sign * Number(fy)];
+    const share = before + up > 0 ? up / (before + up) : 0;
+    force.x[index] = (1 - share) * (force.x[index] ?? 0) + share * Number(x);
+    force.y[index] = (1 - share) * (force.y[index] ?? 0) + share * Number(y);
+    force.up[index] = before + up;
+    force.forward[index] = (force.forward[index] ?? 0) + sign * Number(fx);
+  }
+  return found;
 }
 
 /** A number of a body between two instants. */

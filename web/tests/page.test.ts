@@ -51,13 +51,14 @@ async function isSame(
   page: Page,
   words: string[],
   inputs: string[],
+  inside = "",
 ): Promise<Map<string, Buffer>> {
   const { content } = await saved(page, "#save-all");
   const found = unzip(content);
-  const expected = native(words, inputs).files;
+  const expected = native(words, inputs, inside).files;
   assert.deepEqual([...found.keys()].sort(), [...expected.keys()].sort());
-  const left = ["report.html", "timings.json"];
-  const compared = [...expected].filter(([name]) => !left.includes(name) && !name.endsWith(".c3d"));
+  const isLeft = (name: string): boolean => /\.(html|c3d)$|^timings\.json$/.test(name);
+  const compared = [...expected].filter(([name]) => !isLeft(name));
   for (const [name, bytes] of compared) {
     const [a, b] = [found.get(name) ?? Buffer.of(), bytes].map((content) => comparable(name, content)) as [
       Buffer,
@@ -139,7 +140,8 @@ test("the page is small", async (context) => {
   await visit(async ({ page, host }) => {
     await shown(page, "demo");
     const { gzipSync } = await import("node:zlib");
-    const loaded = [...new Set(host.requests)].filter((path) => path !== "/plain");
+    // The documents are kept for a visit without a connection, after the page is shown.
+    const loaded = [...new Set(host.requests)].filter((path) => path !== "/plain" && !path.startsWith("/documents/"));
     const sizes = loaded.map((path) => {
       const file = join(process.env["SITE"] ?? "", path === "/" ? "index.html" : path);
       return existsSync(file) ? gzipSync(readFileSync(file), { level: 9 }).length : 0;
@@ -193,7 +195,7 @@ test("HC032A03: dropped files are told apart, and the result is the program's", 
   });
 });
 
-test("an error is the program's text, and the page goes on", async () => {
+test("an error is the program's text, marks its cause, and goes away with it", async () => {
   const broken = join(demo, "broken.trc");
   writeFileSync(broken, readFileSync(join(demo, "walk.trc"), "utf8").replace("Units", "Ells"));
   await visit(async ({ page }) => {
@@ -202,12 +204,73 @@ test("an error is the program's text, and the page goes on", async () => {
     await page.waitForSelector("#error:not([hidden])");
     const { complained } = native(["forces", "broken.trc", "-o", "out"], [broken]);
     assert.match(complained, /^error: broken\.trc/);
-    assert.equal(await page.textContent("#error"), complained.trim());
+    assert.equal(await page.textContent("#error"), complained.trim().replace("error: ", ""));
+    const marked = (): Promise<string[]> =>
+      page.locator("[aria-invalid]").evaluateAll((all) => all.map((one) => one.id || one.ariaLabel || ""));
+    assert.deepEqual(await marked(), ["broken.trc is"]);
     await page.fill("#more", "--nonsense");
+    assert.ok(await page.isHidden("#error"), "another option is another input");
+    assert.deepEqual(await marked(), []);
     await page.press("#more", "Enter");
     await page.waitForFunction(() => document.querySelector("#error")?.textContent?.includes("--nonsense"));
-    await page.click("#demo");
-    await page.waitForSelector("#error", { state: "hidden" });
+    assert.deepEqual(await marked(), ["more"]);
+    await page.fill("#more", "");
+    await page.click("#list button");
+    await compute(page, [join(demo, "walk.bvh")]);
+    await page.waitForSelector("#error:not([hidden])");
+    assert.match((await page.textContent("#error")) ?? "", /fill in the field "Body mass"/);
+    assert.deepEqual(await marked(), ["mass"]);
+    mkdirSync(SHOTS, { recursive: true });
+    await page.screenshot({ path: join(SHOTS, "web-error.png") });
+    await page.fill("#mass", "75 kg");
+    assert.ok(await page.isHidden("#error"), "another mass is another input");
+    await page.click("#compute");
+    assert.match((await page.textContent("#error")) ?? "", /^Body mass: found "75 kg"; expected a number/);
+    assert.deepEqual(await marked(), ["mass"]);
+    await page.fill("#mass", "75");
+    await page.click("#compute");
+    await shown(page, "walk");
+    assert.ok(await page.isHidden("#error"));
+    assert.deepEqual(await marked(), []);
+  });
+});
+
+test("several walks of one person give the page of the session, also from a dropped folder", async (context) => {
+  const folder = join(demo, "visit-1");
+  mkdirSync(join(folder, "more"), { recursive: true });
+  const names = ["first.c3d", "more/second.c3d"];
+  for (const name of names) {
+    writeFileSync(join(folder, name), readFileSync(join(demo, "walk.c3d")));
+  }
+  writeFileSync(join(folder, "standing.c3d"), readFileSync(join(demo, "standing.c3d")));
+  writeFileSync(join(folder, "film.mp4"), "no recording");
+  const paths = [...names, "standing.c3d"].map((name) => join(folder, name));
+  await visit(async ({ page, complaints }) => {
+    await shown(page, "demo");
+    if (IN_FIREFOX) {
+      // Playwright cannot drop a folder there.
+      await page.setInputFiles("#files", paths);
+    } else {
+      const client = await page.context().newCDPSession(page);
+      const data = { items: [], files: [folder], dragOperationsMask: 1 };
+      for (const type of ["dragEnter", "dragOver", "drop"] as const) {
+        await client.send("Input.dispatchDragEvent", { type, x: 100, y: 200, data });
+      }
+    }
+    await page.waitForFunction(() => document.querySelectorAll("#list li").length === 3);
+    const name = IN_FIREFOX ? "visit" : "visit-1";
+    await page.fill("#mass", "75");
+    await page.click("#compute");
+    await shown(page, name);
+    await isLine(page, `ambulo session ${name} -o out -- --mass 75`);
+    const session = page.frames().find((frame) => frame.url().startsWith("blob:"));
+    assert.match((await session?.textContent("h1")) ?? "", /^Gait session/);
+    assert.ok((await page.locator("#pages option").count()) >= 3, "the pages of both trials");
+    const words = ["session", name, "-o", "out", "--", "--mass", "75"];
+    await isSame(context, page, words, paths, name);
+    mkdirSync(SHOTS, { recursive: true });
+    await page.screenshot({ path: join(SHOTS, "web-session.png") });
+    assert.deepEqual(complaints, []);
   });
 });
 
@@ -328,6 +391,36 @@ test("works without a connection after the first visit", async () => {
     await shown(page, "demo");
     await compute(page, [join(demo, "walk.bvh")], "75");
     await shown(page, "walk");
+    await page.click("header nav a");
+    await page.waitForSelector("h1");
+    await page.click("main a >> nth=0");
+    await page.waitForSelector("h1");
+    assert.match(page.url(), /\/documents\//);
+  });
+});
+
+test("a walk that was not solved beforehand leaves the old report, and Stop gives back the sliders", async () => {
+  await visit(async ({ page }) => {
+    await shown(page, "demo");
+    const value = (name: string): Promise<string> => page.locator(`#walk [name=${name}]`).inputValue();
+    const before = await Promise.all(["speed", "slope"].map(value));
+    // No walk of the family is so steep and fast.
+    await page.locator("#walk [name=speed]").fill("1.95");
+    await page.locator("#walk [name=slope]").fill("15");
+    await page.waitForFunction(() => document.querySelector("#status")?.textContent?.startsWith("No walk near"));
+    const isStale = (): Promise<boolean> => page.locator("#page").evaluate((part) => part.classList.contains("stale"));
+    assert.ok((await page.isHidden("#preview")) && (await page.isVisible("#page iframe")) && (await isStale()));
+    await page.focus("#walk [name=slope]");
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForSelector("#progress:not([hidden])");
+    await page.waitForFunction(() => /^[1-9]\d* s$/.test(document.querySelector("#seconds")?.textContent ?? ""));
+    assert.ok((await page.isVisible("#page iframe")) && (await isStale()), "the old report, dimmed");
+    mkdirSync(SHOTS, { recursive: true });
+    await page.screenshot({ path: join(SHOTS, "web-slow.png") });
+    await page.click("#stop");
+    await page.waitForFunction(() => document.querySelector("#error")?.textContent?.startsWith("Stopped"));
+    assert.deepEqual(await Promise.all(["speed", "slope"].map(value)), before);
+    assert.ok((await page.isHidden("#progress")) && !(await isStale()), "the report is that of the sliders again");
   });
 });
 
@@ -391,18 +484,20 @@ test("a walk follows the sliders", async (context) => {
     await page.locator("#walk [name=mass]").fill(String(HELD_OUT.mass - 1));
     await page.focus("#walk [name=mass]");
     await page.keyboard.press("ArrowRight");
-    assert.ok((await page.isVisible("#preview")) && (await page.isHidden("#page")), "the preview is shown");
+    assert.ok(await page.isVisible("#preview"), "the preview is shown");
+    assert.ok(await page.isVisible("#page.stale iframe"), "the report before is dimmed below it");
     const preview = await page.getAttribute("#preview .chart svg", "aria-label");
     await shown(page, "walk");
     assert.ok((await page.isHidden("#preview")) && (await page.isVisible("#page iframe")), "the exact walk is shown");
     context.diagnostic((await page.textContent("#status")) ?? "");
     const speed = await value("speed");
     const words = ["walk", "--speed", String(speed), "--mass", String(HELD_OUT.mass), "-o", "out"];
+    await isLine(page, `ambulo ${words.join(" ")}`);
     const files = await isSame(context, page, words, []);
     const height = await value("height");
     assert.equal(isNear(context, files, { speed, height, mass: HELD_OUT.mass }), preview);
     await page.click("#walk button[type=reset]");
-    for (const begin of ["Computing: ambulo walk", "walk: computed"]) {
+    for (const begin of ["Computing the walk", "walk: computed"]) {
       await page.waitForFunction((begin) => document.querySelector("#status")?.textContent?.startsWith(begin), begin);
     }
     assert.deepEqual(complaints, []);
@@ -420,6 +515,8 @@ test("a walker can be pushed, and falls or not as the program says of the same s
     };
     await page.click("#push button");
     await note(/^The walker does not fall/);
+    await isLine(page, "ambulo simulate walker.toml --keep poses,contacts -o out");
+    await page.waitForSelector("#stage .force.l[d^=M], #stage .force.r[d^=M]", { state: "attached" });
     const picture = await page.locator("#picture svg").boundingBox();
     assert.ok(picture);
     const [x, y] = [picture.x + 0.2 * picture.width, picture.y + 0.5 * picture.height];

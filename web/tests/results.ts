@@ -1,5 +1,5 @@
 import { spawnSync } from "node:child_process";
-import { copyFileSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, relative } from "node:path";
 
@@ -9,12 +9,13 @@ export interface Native {
   complained: string;
 }
 
-/** Runs the program in a new folder with copies of these files. */
-export function native(words: string[], inputs: string[] = []): Native {
+/** Runs the program in a new folder with copies of these files, or with copies in a folder `inside` it. */
+export function native(words: string[], inputs: string[] = [], inside = ""): Native {
   const folder = mkdtempSync(join(tmpdir(), "ambulo-web-"));
   try {
+    mkdirSync(join(folder, inside), { recursive: true });
     for (const path of inputs) {
-      copyFileSync(path, join(folder, basename(path)));
+      copyFileSync(path, join(folder, inside, basename(path)));
     }
     const { stderr, error } = spawnSync(process.env["AMBULO"] ?? "ambulo", words, { cwd: folder, encoding: "utf8" });
     if (error) {

@@ -109,10 +109,10 @@ pub(crate) struct BatchRequest {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct SessionRequest {
     /// Recordings, folder and comparison.
-    own: SessionArgs,
+    pub(crate) own: SessionArgs,
     /// Person and settings of every trial.
     #[serde(default)]
-    job: Job,
+    pub(crate) job: Job,
     /// How angles of pelvis and hips are measured.
     #[serde(default)]
     convention: Convention,
@@ -190,7 +190,11 @@ impl BatchRequest {
 
 impl SessionRequest {
     fn trials(&self) -> TrialWords {
-        TrialWords::of_job(self.job.clone(), Outputs { convention: self.convention, keep: Vec::new() })
+        TrialWords::of_job(self.job.clone(), self.outputs())
+    }
+
+    pub(crate) fn outputs(&self) -> Outputs {
+        Outputs { convention: self.convention, keep: Vec::new() }
     }
 }
 

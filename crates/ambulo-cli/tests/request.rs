@@ -214,5 +214,19 @@ fn a_request_takes_options_as_they_are_typed() {
         assert_eq!(line.trim(), expected);
     }
     bench.write("request.json", br#"{"sweep": {}}"#);
-    bench.run(&["run", "request.json", "--words"]).refused(&["expected forces, walk, simulate or demo"]);
+    bench.run(&["run", "request.json", "--words"]).refused(&["expected forces, session, walk, simulate or demo"]);
+}
+
+#[test]
+fn options_of_a_session_are_those_of_its_trials() {
+    let bench = Workbench::new("request-session");
+    let request = json!({"session": {
+        "own": {"source": ["visit"], "name": "Ann", "date": "2026-11-02", "jobs": 1, "output": "out"},
+        "job": {"size": {"mass_kg": 60.5}},
+    }});
+    bench.write("request.json", request.to_string().as_bytes());
+    let line = bench.run(&["run", "request.json", "--options", "--cutoff 8", "--words"]).done().stdout;
+    let expected = "ambulo session visit --name Ann --date 2026-11-02 --jobs 1 -o out -- --mass 60.5 --cutoff 8";
+    assert_eq!(line.trim(), expected);
+    bench.run(&["run", "request.json", "--options", "--nonsense"]).refused(&["'--nonsense'"]);
 }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { requestFor, withRoles } from "../../src/files";
+import { isRead, requestFor, withRoles } from "../../src/files";
 import type { Request } from "../../src/request";
 
 const NOTHING = { mass: "", height: "" };
@@ -32,16 +32,30 @@ test("a recording is computed by itself, with what the visitor states", async ()
   assert.deepEqual(await request({ "walk.bvh": "" }, [], person), expected);
 });
 
-test("text that is no number is left to the command, which refuses it", async () => {
-  const expected = forces({ recording: "walk.bvh", size: { mass_kg: "60,3" } });
-  assert.deepEqual(await request({ "walk.bvh": "" }, [], { mass: "60,3", height: "" }), expected);
+test("text that is no number is refused with the name of its field", async () => {
+  const asked = (person: typeof NOTHING): Promise<Request> => request({ "walk.bvh": "" }, [], person);
+  await assert.rejects(asked({ mass: "60 kg", height: "" }), /^Error: Body mass: found "60 kg"; expected a number/);
+  await assert.rejects(asked({ mass: "", height: "1,75" }), /^Error: Stature: found "1,75"; expected a number/);
 });
 
-test("of recordings with markers, the one without a step is the standing trial, and one is computed", async () => {
+test("several walks of one person are a session, with the files in a folder", async () => {
+  const session = (job = {}): object => ({ session: { own: { source: ["visit"], output: "out" }, ...job } });
+  const files = { "a.c3d": "", "b.c3d": "", "c.c3d": "", "d.c3d": "", "trials.toml": 'person = "A"' };
+  assert.deepEqual(await request(files, ["a.c3d", "d.c3d"]), session());
+  const person = { mass: "60", height: "" };
+  assert.deepEqual(await request(files, [], person), session({ job: { size: { mass_kg: 60 } } }));
+});
+
+test("of a dropped folder, the files are taken that the command reads", () => {
+  const names = ["walk.c3d", "WALK.C3D", "film.mp4", ".hidden.c3d", "README", "trials.toml"];
+  assert.deepEqual(names.filter(isRead), ["walk.c3d", "WALK.C3D", "trials.toml"]);
+});
+
+test("of recordings with markers, the one without a step is the standing trial", async () => {
   const expected = forces({ recording: "b.c3d", standing: "a.c3d" });
   assert.deepEqual(await request({ "a.c3d": "", "b.c3d": "" }, ["a.c3d"]), expected);
   assert.deepEqual(await request({ "b.c3d": "", "a.c3d": "" }, ["a.c3d"]), expected);
-  assert.deepEqual(await request({ "a.c3d": "", "b.c3d": "", "c.c3d": "", "d.c3d": "" }, ["a.c3d", "d.c3d"]), expected);
+  assert.deepEqual(await request({ "a.c3d": "", "b.c3d": "", "d.c3d": "" }, ["a.c3d", "d.c3d"]), expected);
   assert.deepEqual(
     await request({ "a.trc": "", "b.trc": "" }, ["a.trc", "b.trc"]),
     forces({ recording: "a.trc", standing: "b.trc" }),

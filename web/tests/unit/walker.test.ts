@@ -8,13 +8,13 @@ function walk(balls: Run["bodies"] = []): Run {
   const torso = {
     name: "walker/torso",
     side: null,
-    capsules: [{ from: [0, 0.2] as const, to: [0, 0.2] as const, radius: 0.12 }],
+    capsules: [{ from: [0, 0.2] as const, to: [0, 0.2] as const, radius: 0.12, sphere: true }],
     x: times.map((time) => 1.3 * time),
     y: times.map(() => 1.2),
     angle: times.map((time) => 0.1 * time),
     speed: times.map(() => 1.3),
   };
-  return { times, bodies: [torso, ...balls], fall: undefined };
+  return { times, bodies: [torso, ...balls], ground: [], fall: undefined };
 }
 
 test("a ball touches the trunk when it is meant to, from behind and from the front", () => {
@@ -76,12 +76,13 @@ test("results are read by body and instant, with what is said of a fall", () => 
         }),
         "poses.csv": `time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n0,walker/torso,1,2,0,${Math.cos(0.1)},0,0,${Math.sin(0.1)},1.3,0,0,0,0,0\n0.5,walker/torso,3,2,0,1,0,0,0,1.4,0,0,0,0,0\n`,
         "summary.json": JSON.stringify({ findings }),
+        "contacts.csv": "time\n",
       }).map(([name, text]) => [name, new TextEncoder().encode(text)]),
     );
   const run = readRun(files([{ code: "figure.fell", message: "`walker` fell at 3 s" }]));
   const [torso] = run.bodies;
   assert.deepEqual(run.times, [0, 0.5]);
-  assert.deepEqual(torso?.capsules, [{ from: [1, 2], to: [4, 5], radius: 0.1 }]);
+  assert.deepEqual(torso?.capsules, [{ from: [1, 2], to: [4, 5], radius: 0.1, sphere: false }]);
   assert.deepEqual(
     [torso?.x, torso?.speed, torso?.angle.map((a) => Number(a.toFixed(9)))],
     [
@@ -92,4 +93,35 @@ test("results are read by body and instant, with what is said of a fall", () => 
   );
   assert.equal(run.fall, "The walker fell at 3 s");
   assert.equal(readRun(files([])).fall, undefined);
+});
+
+test("forces of the ground are summed by leg, whichever body is first", () => {
+  const body = (name: string, side: string | null): object => ({ name, side, shapes: [] });
+  const bodies = [body("walker/torso", null), body("walker/calcn_r", "r"), body("walker/toes_r", "r")];
+  const contact = (first: string, second: string, x: number, [fx, fy]: [number, number]): string =>
+    `0.02,contact,${first},${second},${x},0,0,0,1,0,${fx},${fy},0,0,0,0,0`;
+  const files = new Map(
+    Object.entries({
+      "shapes.json": JSON.stringify({ bodies }),
+      "summary.json": JSON.stringify({ findings: [] }),
+      "poses.csv": "head\n0,walker/torso,0,1,0,1,0,0,0,0\n0.02,walker/torso,0,1,0,1,0,0,0,0\n",
+      "contacts.csv": [
+        "head",
+        contact("walker/calcn_r", "floor", 1, [-10, 300]),
+        contact("floor", "walker/toes_r", 2, [-5, -100]),
+        contact("walker/torso", "ball 1", 9, [50, 900]),
+      ].join("\n"),
+    }).map(([name, text]) => [name, new TextEncoder().encode(text)]),
+  );
+  const { ground } = readRun(files);
+  const right = ground.find(({ side }) => side === "r");
+  assert.deepEqual(
+    [right?.up, right?.forward, right?.x],
+    [
+      [0, 400],
+      [0, -5],
+      [0, 1.25],
+    ],
+  );
+  assert.ok(ground.filter(({ side }) => side !== "r").every(({ up }) => up.every((force) => force === 0)));
 });

@@ -1,7 +1,10 @@
 //! Converts a request to words of the command line.
 
 use super::words::{Words, quoted, split};
-use super::{Args, Command, DemoArgs, FigureArgs, GaitArgs, Handling, SimulateArgs, WalkArgs, WalkMode, words_of_job};
+use super::{
+    Args, Command, DemoArgs, FigureArgs, GaitArgs, Handling, SessionArgs, SimulateArgs, WalkArgs, WalkMode,
+    words_of_job,
+};
 use crate::request::{ForcesRequest, Request, Verb};
 use ambulo::job::Job;
 use ambulo::optimal::{Load, LoadPlace};
@@ -12,30 +15,55 @@ use std::path::Path;
 
 /// The command line of a request with further options, as it is typed.
 pub(crate) fn line(request: &Request, options: &str) -> Result<String> {
-    let (words, output) = words(request)?;
+    let Parts { own, output, of_trials } = parts(request)?;
+    let as_typed = |words: &[OsString]| words.iter().map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>();
+    let mut options = Vec::from_iter(Some(options.trim().to_owned()).filter(|options| !options.is_empty()));
     let mut line = vec!["ambulo".to_owned()];
-    line.extend(words.iter().map(|word| quoted(&word.to_string_lossy())));
-    line.extend(Some(options.trim().to_owned()).filter(|options| !options.is_empty()));
+    line.extend(as_typed(&own));
+    if of_trials.is_none() {
+        line.append(&mut options);
+    }
     line.extend(output.into_iter().flat_map(|output| ["-o".to_owned(), quoted(&output.display().to_string())]));
+    let last: Vec<String> = as_typed(&of_trials.unwrap_or_default()).into_iter().chain(options).collect();
+    if !last.is_empty() {
+        line.push("--".to_owned());
+        line.extend(last);
+    }
     Ok(line.join(" "))
 }
 
 /// The command of a request with further options, as they are typed.
 pub(crate) fn with_options(request: &Request, options: &str, how: Handling) -> Result<Option<Command>> {
-    let (own, output) = words(request)?;
+    let Parts { own, output, of_trials } = parts(request)?;
     let mut words = Words(vec!["ambulo".into()]);
-    words.0.extend(own.into_iter().chain(split(options)));
+    words.0.extend(own);
+    if of_trials.is_none() {
+        words.0.extend(split(options));
+    }
     words.path("--output", output.map(Path::to_path_buf).as_ref());
     words.flag("--force", how.replace.force);
     words.flag("--check", how.check.check);
     words.flag("--json", how.print.json);
     words.flag("--quiet", how.print.quiet);
     words.flag("--verbose", how.print.verbose);
+    if let Some(of_trials) = of_trials {
+        words.0.push("--".into());
+        words.0.extend(of_trials.into_iter().chain(split(options)));
+    }
     Ok(Args::try_parse_from(words.0)?.command)
 }
 
-/// The words of everything that differs from the defaults, and the folder for the results.
-fn words(request: &Request) -> Result<(Vec<OsString>, Option<&Path>)> {
+/// The words of everything in a request that differs from the defaults.
+struct Parts<'r> {
+    own: Vec<OsString>,
+    /// The folder for the results.
+    output: Option<&'r Path>,
+    /// The words after `--`, for a verb whose options are those of every trial.
+    of_trials: Option<Vec<OsString>>,
+}
+
+fn parts(request: &Request) -> Result<Parts<'_>> {
+    let mut of_trials = None;
     let mut words = Words(Vec::new());
     let output = match &request.0 {
         Verb::Forces(request) => {
@@ -54,9 +82,28 @@ fn words(request: &Request) -> Result<(Vec<OsString>, Option<&Path>)> {
             of_demo(args, &mut words);
             Some(args.output.as_path())
         }
-        _ => bail!("found a request of another verb; expected forces, walk, simulate or demo, which take options"),
+        Verb::Session(request) => {
+            of_session(&request.own, &mut words);
+            of_trials = Some(words_of_job::words(&request.job, &request.outputs()));
+            Some(request.own.output.as_path())
+        }
+        _ => bail!(
+            "found a request of another verb; expected forces, session, walk, simulate or demo, which take options"
+        ),
     };
-    Ok((words.0, output))
+    Ok(Parts { own: words.0, output, of_trials })
+}
+
+fn of_session(args: &SessionArgs, words: &mut Words) {
+    words.0.push("session".into());
+    args.source.iter().for_each(|source| words.input(source));
+    words.path("--compare", args.compare.as_ref());
+    words.path("--norm", args.norm.as_ref());
+    words.value("--name", args.name.as_ref());
+    words.value("--date", args.date.as_ref());
+    words.flag("--anonymous", args.anonymous);
+    words.flag("--dry-run", args.dry_run);
+    words.value("--jobs", args.jobs);
 }
 
 fn of_forces(request: &ForcesRequest, words: &mut Words) {

@@ -24,10 +24,12 @@ pub(super) fn side_by_side<T: Send>(count: usize, threads: usize, work: impl Fn(
             done.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(result);
         }
     };
+    // This thread works as well: a browser has no other.
     thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, count.max(1)) {
+        for _ in 1..threads.min(count) {
             scope.spawn(worker);
         }
+        worker();
     });
     done.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
 }

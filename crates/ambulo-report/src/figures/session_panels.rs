@@ -194,6 +194,8 @@ pub(crate) struct ProfileBars {
 
 /// Highest score of the usual scale [deg].
 const PROFILE_SCALE: f64 = 30.0;
+/// So many angles fit on the screen of a phone.
+const NARROW: usize = 5;
 /// Width of a bar, as a share of its group.
 const BAR: f64 = 0.28;
 
@@ -209,7 +211,7 @@ impl ProfileFigure {
             style,
             title: &self.title,
             caption: &self.caption,
-            width_mm: style.widths_mm.two_columns,
+            width_mm: if self.is_narrow() { style.widths_mm.one_column } else { style.widths_mm.two_columns },
             rows: std::iter::once(0..1).collect(),
             panel_height: 1.5 * HEIGHT,
             legend: vec![
@@ -222,6 +224,15 @@ impl ProfileFigure {
             description: self.bars.iter().map(ProfileBars::description).collect::<Vec<_>>().join(" "),
         };
         Ok(sheet.draw(|drawing, slot| self.draw(drawing, style, slot)))
+    }
+
+    fn is_narrow(&self) -> bool {
+        self.bars.len() <= NARROW
+    }
+
+    /// The same angles in figures that fit on the screen of a phone.
+    pub(crate) fn narrow(&self) -> Vec<Self> {
+        self.bars.chunks(NARROW).map(|bars| Self { bars: bars.to_vec(), ..self.clone() }).collect()
     }
 
     /// The usual scale, or one with whole steps more for higher scores.

@@ -1,7 +1,7 @@
 //! The first screen: recording, source of the forces, speed, steps, asymmetry, and the largest differences from normal.
 
 use super::curves::{shown_cycles, statistics};
-use super::header::{fact, forces, recording};
+use super::header::{fact, forces, recording, speed_in_words};
 use super::results::Results;
 use super::size::BodySize;
 use super::time_distance;
@@ -24,7 +24,7 @@ pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQ
         stated("Recorded on", &summary.input.recorded_on),
         Some(Fact { note: uncertainty(results), ..forces(results) }),
         summary.activity.map(|activity| fact("Activity", activity.words(), None)),
-        summary.speed_m_s.map(|speed| fact("Speed", format!("{speed:.2} m/s"), None)),
+        summary.speed_m_s.map(|speed| fact("Speed", speed_in_words(results, speed), None)),
         mean(results, StrideQuantity::Cadence).map(|mean| fact("Cadence", format!("{mean:.0} steps/min"), None)),
         mean(results, StrideQuantity::StepLength).map(|mean| fact("Step length", format!("{mean:.2} m"), None)),
         asymmetry(results),
@@ -47,8 +47,8 @@ fn mean(results: &Results, quantity: StrideQuantity) -> Option<f64> {
 fn uncertainty(results: &Results) -> Option<String> {
     if results.source != PageSource::Predicted {
         let residual = results.summary.residual.as_ref();
-        let residual =
-            residual.map(|residual| format!("residual force {:.1} % of body weight", 100.0 * residual.force_rms_bw));
+        let residual = residual
+            .map(|residual| format!("residual force, RMS, {:.1} % of body weight", 100.0 * residual.force_rms_bw));
         let parts: Vec<String> = residual.into_iter().chain(results.summary.ground.shares()).collect();
         return Some(parts.join("; ")).filter(|parts| !parts.is_empty());
     }

@@ -43,6 +43,9 @@ pub(super) fn header(results: &Results, size: &BodySize) -> Vec<Fact> {
 
 /// The name of the session: the recording or the gait.
 pub(super) fn recording_name(results: &Results) -> String {
+    if let Some(walk) = &results.summary.walk {
+        return format!("Computed walk: {}", walk.gait);
+    }
     file_name(&results.summary.input.motion).to_owned()
 }
 
@@ -56,10 +59,21 @@ pub(super) fn fact(label: &str, value: impl Into<String>, note: Option<String>) 
     Fact { label: label.to_owned(), value: value.into(), note }
 }
 
-/// The recording or synthetic walk.
+/// How a walk was computed, from the name of the mode.
+fn way(mode: &str) -> &'static str {
+    match mode {
+        "predict" => "predicted: least muscle effort, follows no recorded curves",
+        "corrected" => "nearest to the curves of the gait, without outside forces",
+        "physical" => "simulated by its own torques",
+        "paper" => "exactly the curves of the gait, as in the paper of 1997",
+        _ => "near mean curves of healthy people, without outside forces",
+    }
+}
+
+/// The recording or computed walk.
 pub(super) fn recording(results: &Results) -> Fact {
     if let Some(walk) = &results.summary.walk {
-        return fact("Synthetic walk", &*walk.gait, Some(format!("style {}, mode {}", walk.style, walk.mode)));
+        return fact("Computed walk", &*walk.gait, Some(way(&walk.mode).to_owned()));
     }
     let input = &results.summary.input;
     let standing = input.standing.as_ref().map(|file| format!("standing trial: {}", file_name(file)));
@@ -128,11 +142,15 @@ fn speed(results: &Results, size: &BodySize) -> Fact {
         Some(scaled) => format!("V* = V / sqrt(g L) = {scaled:.2}"),
         None => "no dimensionless speed, because the leg length is not known".to_owned(),
     };
-    let value = match results.summary.times_and_distances.path_speed_m_s {
-        Some(along) => format!("{speed:.2} m/s straight, {along:.2} m/s along the path"),
+    fact("Speed", speed_in_words(results, speed), Some(scaled))
+}
+
+/// A speed [m/s], and that along the path if it is not straight.
+pub(super) fn speed_in_words(results: &Results, speed: f64) -> String {
+    match results.summary.times_and_distances.path_speed_m_s {
+        Some(along) => format!("{along:.2} m/s along the path, {speed:.2} m/s straight"),
         None => format!("{speed:.2} m/s"),
-    };
-    fact("Speed", value, Some(scaled))
+    }
 }
 
 fn cadence(results: &Results) -> Option<Fact> {

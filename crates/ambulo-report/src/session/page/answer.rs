@@ -180,7 +180,10 @@ pub(super) fn normal(summary: &SessionSummary, figures: &Figures<'_>) -> Result<
         html += "<p class=\"soft\">There is no score of both sides, because it needs all nine angles of both.</p>\n";
     }
     html += &deviation_index(profile);
-    html += &super::picture(&figure.svg()?, "Movement analysis profile");
+    html += &super::picture("wide", &figure.svg()?, "Movement analysis profile");
+    for part in figure.narrow() {
+        html += &super::picture("narrow", &part.svg()?, "Movement analysis profile, a part");
+    }
     Ok(html + "</section>\n")
 }
 

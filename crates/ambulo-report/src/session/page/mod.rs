@@ -221,10 +221,10 @@ fn convention(summary: &SessionSummary) -> String {
     format!("{} convention{reason}", summary.convention.word())
 }
 
-/// A picture that scrolls on a narrow screen.
-fn picture(svg: &str, label: &str) -> String {
+/// A picture for a wide or a narrow screen.
+fn picture(screen: &str, svg: &str, label: &str) -> String {
     let labelled = format!("<svg aria-label=\"{}\" ", escaped(label));
-    format!("<p class=\"picture\">{}</p>\n", svg.replacen("<svg ", &labelled, 1))
+    format!("<p class=\"picture {screen}\">{}</p>\n", svg.replacen("<svg ", &labelled, 1))
 }
 
 fn section(section: &Section) -> String {
