@@ -469,6 +469,8 @@ def batch(
     keep: Sequence[str] | None = None,
     part: int | None = None,
     limit: int | None = None,
+    time_limit: float | None = None,
+    size_limit: float | None = None,
 ) -> Batch:
     """Compute all recordings of a folder or a list into Parquet tables: ``ambulo batch``.
 
@@ -494,6 +496,10 @@ def batch(
         Trials in one file of each table.
     limit : int, optional
         Compute only the first trials.
+    time_limit : float, optional
+        Longest time for one trial [s]; a trial that takes longer ends after its stage and is a row with its error.
+    size_limit : float, optional
+        Largest size of all files of one trial [MB]; a larger trial is not read and is a row with its error.
 
     Returns
     -------
@@ -520,6 +526,8 @@ def batch(
         "keep": listed(keep),
         "part": part,
         "limit": limit,
+        "time_limit": time_limit,
+        "size_limit": size_limit,
     }
     return Batch(_ambulo.run({"batch": {"own": own}}, of_all=dict(options or {})))
 
