@@ -256,6 +256,10 @@ export interface BatchArgs {
   part?: number;
   /** Compute only the first trials. */
   limit?: number | null;
+  /** Longest time for one trial [s]: a trial that takes longer ends after its stage and is a row with its error. */
+  time_limit?: number | null;
+  /** Largest size of all files of one trial [MB]: a larger trial is not read and is a row with its error. */
+  size_limit?: number | null;
   /** Only print which trials were found, with which files. */
   dry_run?: boolean;
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 /// Input files in memory, and a way to stop a computation. The command itself has neither.
 #[derive(Debug, Clone, Default)]
@@ -12,6 +13,8 @@ pub struct Caller {
     pub files: BTreeMap<PathBuf, Arc<[u8]>>,
     /// Set by another thread to stop after the stage that is being computed.
     pub stop: Arc<AtomicBool>,
+    /// The computation also stops after the stage that this instant is in.
+    pub deadline: Option<Instant>,
 }
 
 impl Caller {
@@ -24,6 +27,6 @@ impl Caller {
     }
 
     pub(crate) fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.stop.load(Ordering::Relaxed) || self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 }

@@ -37,7 +37,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(args) => args,
         Err(refused) => return refuse(&args::with_place_of_options(refused)),
     };
-    match execute(args.command) {
+    match execute(args.command, &Caller::default()) {
         Ok(Completion::Passed) => 0,
         Ok(Completion::Failed) => 1,
         Err(error) => match error.downcast_ref::<clap::Error>() {
@@ -51,13 +51,13 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Runs the command with these words, of which the first is the name of the program, and returns what it prints on
-/// standard output.
+/// standard output. The caller may stop `tune` and `reproduce`.
 ///
 /// # Errors
 /// Words that the command refuses, and a command that could not run.
-pub fn printed(words: Vec<OsString>) -> Result<String, Failure> {
+pub fn printed(words: Vec<OsString>, caller: &Caller) -> Result<String, Failure> {
     let names: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
-    let (text, done) = printer::caught(|| execute(Args::try_parse_from(words)?.command));
+    let (text, done) = printer::caught(|| execute(Args::try_parse_from(words)?.command, caller));
     done.map(|_| text).map_err(|error| match error.downcast_ref::<clap::Error>() {
         Some(refused) => Failure::refused(refused.to_string().trim_start_matches("error: ").trim_end().to_owned()),
         None => Failure::from(error).in_one_of(names.iter().map(String::as_str)),
@@ -65,7 +65,7 @@ pub fn printed(words: Vec<OsString>) -> Result<String, Failure> {
 }
 
 /// Runs a command; without one, prints where to begin.
-fn execute(command: Option<Command>) -> anyhow::Result<Completion> {
+fn execute(command: Option<Command>, caller: &Caller) -> anyhow::Result<Completion> {
     match command {
         None => printer::guide().map(|()| Completion::Passed),
         Some(Command::Forces(args)) => Request::from(args.request()).run(args.handling()),
@@ -77,10 +77,10 @@ fn execute(command: Option<Command>) -> anyhow::Result<Completion> {
         Some(Command::Walk(args)) => commands::walk::run(&args),
         Some(Command::Sweep(args)) => commands::sweep::run(&args),
         Some(Command::Demo(args)) => commands::demo::run(&args),
-        Some(Command::Run(args)) => commands::run::run(&args),
+        Some(Command::Run(args)) => commands::run::run(&args, caller),
         Some(Command::Simulate(args)) => commands::simulate::run(&args),
-        Some(Command::Tune(args)) => commands::tune::run(&args),
-        Some(Command::Reproduce(args)) => commands::reproduce::run(&args),
+        Some(Command::Tune(args)) => commands::tune::run(&args, caller),
+        Some(Command::Reproduce(args)) => commands::reproduce::run(&args, caller),
         Some(Command::Report(args)) => commands::report::run(&args),
         Some(Command::View(args)) => commands::view::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),

@@ -11,6 +11,7 @@
 //! | a part without results has no file of frames, and stays closed                          | exact                            |
 //! | a model that is read and scaled once gives each trial the results of `ambulo forces`     | single precision                 |
 //! | the page is written when all shards are complete, with the same bytes                  | exact                            |
+//! | all files of a table have the same columns, whatever the bodies, and a card lists them  | exact                            |
 //! | the error against one plate is in the column of the foot that stood on it              | exact                            |
 
 use crate::shared_data;
@@ -222,6 +223,48 @@ fn a_part_without_results_has_no_frames_and_stays_closed() {
     bench.write("out/frames/part-000-00001.parquet", "torn");
     bench.run(&words).done();
     assert!(tables(&bench, "out") == found);
+}
+
+#[test]
+fn all_files_of_a_table_have_the_same_columns_and_the_card_lists_them() {
+    let bench = set("batch_same_columns");
+    bench.run(&["demo", "-o", "demo", "--quiet", "--keep", "recording"]).done();
+    // Trials of two bodies: that of the model, and the built-in one with its arms.
+    bench.write(
+        "list.csv",
+        "file,model,static,mass\nset/person 0/walk.mot,set/person 0/figure.osim,,\n\
+         demo/input/walk.c3d,,demo/input/standing.c3d,75\nset/person 1/broken.c3d,,,\n",
+    );
+    let words = ["batch", "list.csv", "--part", "1", "--quiet", "-o", "out", "--shard"];
+    bench.run(&[&words[..], &["0/2"]].concat()).done();
+    assert!(!bench.exists("out/README.md"), "one of two shards");
+    bench.run(&[&words[..], &["1/2"]].concat()).done();
+    let found = tables(&bench, "out");
+    let frames = || found.iter().filter(|(name, _)| name.starts_with("frames/"));
+    let read: Vec<ParquetTable> = frames().map(|(_, bytes)| ParquetTable::read(bytes).unwrap()).collect();
+    let names = |table: &ParquetTable| table.columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
+    assert_eq!(read.len(), 2);
+    assert_eq!(names(&read[0]), names(&read[1]));
+    // What the first body does not have is missing, with its unit; what it has is kept.
+    let values = |table: &ParquetTable, name: &str| match table.column(name) {
+        Some(ColumnValues::Single(values)) => values.clone(),
+        _ => panic!("{name}"),
+    };
+    let is_own = |name: &String| values(&read[0], name).iter().all(|value| value.is_nan());
+    let added: Vec<String> = names(&read[1])[4..].iter().filter(|name| is_own(name)).cloned().collect();
+    assert!(added.iter().any(|name| name.starts_with("arm_")), "{added:?}");
+    assert!(added.iter().all(|name| read[0].about(&format!("unit of {name}")).is_some()));
+    assert!(values(&read[0], "knee_angle_r_moment").iter().any(|value| value.abs() > 10.0));
+    let card = bench.text("out/README.md");
+    for name in names(&read[0]).iter().chain(&["error".to_owned(), "speed_m_s".to_owned()]) {
+        assert!(card.contains(&format!("| `{name}` |")), "{name}");
+    }
+    assert!(card.contains("2 trials were computed, 1 could not be"), "{card}");
+    // A part that is lost gets the same columns again.
+    fs::remove_file(bench.folder.join("out/frames/part-000-00000.parquet")).unwrap();
+    bench.run(&[&words[..], &["0/2", "--resume"]].concat()).done();
+    assert!(tables(&bench, "out") == found);
+    assert_eq!(bench.text("out/README.md"), card);
 }
 
 /// The first frames of a TRC.

@@ -9,6 +9,7 @@ use super::open_values::GAITS;
 use super::open_values::{OpenKind, OpenValue, open_values};
 use super::setting::Setting;
 use super::statements::judgements;
+use std::ops::ControlFlow;
 
 /// A value that the paper does not give.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,8 +78,13 @@ const OF_SOFT_SHOES: &str = "i";
 
 /// Walks again with each of the other values, one after the other, and judges the claims about what it changes: the
 /// four gaits for a value of one gait, soft shoes for theirs, and the standard gait for all others. `progress` gets the
-/// number of values done and of all. If a walk cannot be simulated, [`Sensitivity::outcome`] has the reason.
-pub fn sensitivities(setting: &Setting, paper: &Evidence, progress: &mut dyn FnMut(usize, usize)) -> Vec<Sensitivity> {
+/// number of values done and of all, and may end the search. If a walk cannot be simulated, [`Sensitivity::outcome`]
+/// has the reason.
+pub fn sensitivities(
+    setting: &Setting,
+    paper: &Evidence,
+    progress: &mut dyn FnMut(usize, usize) -> ControlFlow<()>,
+) -> Vec<Sensitivity> {
     let mut others = Vec::new();
     for (open, assumption) in open_values().iter().zip(assumptions(setting)) {
         for (other, setting) in assumption.others {
@@ -87,11 +93,13 @@ pub fn sensitivities(setting: &Setting, paper: &Evidence, progress: &mut dyn FnM
     }
     let all = others.len();
     let judged = |(done, (open, what, other, setting)): (usize, (&OpenValue, String, String, Setting))| {
-        progress(done, all);
+        if progress(done, all).is_break() {
+            return None;
+        }
         let outcome = judged_near(paper, &setting, open.key).map_err(|error| error.to_string());
-        Sensitivity { what, other, outcome }
+        Some(Sensitivity { what, other, outcome })
     };
-    others.into_iter().enumerate().map(judged).collect()
+    others.into_iter().enumerate().map_while(judged).collect()
 }
 
 /// The judgements that the change of a value can reverse; walks that it does not change come from `paper`.

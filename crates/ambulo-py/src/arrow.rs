@@ -2,7 +2,7 @@
 //! none of them is imported here.
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
 use arrow_schema::{DataType, Field, Schema};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -11,10 +11,11 @@ use pyo3::types::PyCapsule;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A column: numbers, or texts.
+/// A column: numbers, whole numbers, or texts.
 #[derive(FromPyObject)]
 pub(crate) enum Column<'py> {
     Numbers(PyReadonlyArray1<'py, f64>),
+    Whole(PyReadonlyArray1<'py, i64>),
     Texts(Vec<String>),
 }
 
@@ -30,6 +31,7 @@ pub(crate) fn arrow_stream<'py>(
     for (name, unit, column) in columns {
         let (kind, array): (DataType, ArrayRef) = match column {
             Column::Numbers(numbers) => (DataType::Float64, Arc::new(Float64Array::from(numbers.as_array().to_vec()))),
+            Column::Whole(numbers) => (DataType::Int64, Arc::new(Int64Array::from(numbers.as_array().to_vec()))),
             Column::Texts(texts) => (DataType::Utf8, Arc::new(StringArray::from(texts))),
         };
         let metadata = HashMap::from([("unit".to_owned(), unit)]);

@@ -40,7 +40,8 @@ pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
 /// Runs the command, whose first word is the name of the program, and returns what it prints.
 #[pyfunction]
 pub(crate) fn printed(py: Python<'_>, words: Vec<OsString>) -> PyResult<String> {
-    let computed = interruptible(py, Arc::default(), move || ambulo_cli::printed(words))?;
+    let caller = Caller::default();
+    let computed = interruptible(py, Arc::clone(&caller.stop), move || ambulo_cli::printed(words, &caller))?;
     computed.map_err(|failure| exception(py, failure))
 }
 
@@ -102,7 +103,7 @@ fn answered<'py>(
     let request: Request = request.into();
     let stop = Arc::new(AtomicBool::new(false));
     let files = files.iter().map(|(name, content)| (name.clone(), Arc::from(&content[..]))).collect();
-    let caller = Caller { files, stop: Arc::clone(&stop) };
+    let caller = Caller { files, stop: Arc::clone(&stop), ..Caller::default() };
     let computed = interruptible(py, stop, move || request.compute(existing, &caller))?;
     match computed.map_err(|failure| exception(py, failure))? {
         Answer::Results(results) => Ok(Bound::new(py, Results(*results))?.into_any()),

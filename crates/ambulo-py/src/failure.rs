@@ -27,11 +27,22 @@ pub(crate) fn refused(py: Python<'_>, message: String) -> PyErr {
     exception(py, Failure { message, hint, file: None, line: None, system: None, stopped: false })
 }
 
-/// Code, severity and message of a finding.
-pub(crate) type Listed = (&'static str, String, String);
+/// A finding, in Python a dictionary with these keys, as in `summary.json`.
+#[derive(Clone, IntoPyObject)]
+pub(crate) struct Listed {
+    code: &'static str,
+    severity: String,
+    message: String,
+    count: usize,
+}
 
 pub(crate) fn listed(findings: &Findings) -> Vec<Listed> {
-    let finding = |finding: &Finding| (finding.code.name(), finding.severity().to_string(), finding.message.clone());
+    let finding = |finding: &Finding| Listed {
+        code: finding.code.name(),
+        severity: finding.severity().to_string(),
+        message: finding.message.clone(),
+        count: finding.count,
+    };
     findings.as_slice().iter().map(finding).collect()
 }
 

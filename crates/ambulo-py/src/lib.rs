@@ -24,7 +24,7 @@ mod _ambulo {
     #[pymodule_export]
     use super::recordings::{read, read_markers, read_table, write_markers, write_table};
     #[pymodule_export]
-    use super::results::Results;
+    use super::results::{Results, clinical_wording};
     #[pymodule_export]
     use super::stream::Stream;
 }

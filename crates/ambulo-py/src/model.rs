@@ -135,7 +135,7 @@ impl Model {
         self.model.markers().iter().map(|marker| marker.name.as_str()).collect()
     }
 
-    /// Warnings and notes about the file: code, severity, message.
+    /// Warnings and notes about the file: ``code``, ``severity``, ``message``, ``count``.
     #[getter]
     fn findings(&self) -> Vec<Listed> {
         self.findings.clone()

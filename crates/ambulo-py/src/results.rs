@@ -7,6 +7,12 @@ use pyo3::types::PyBytes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+/// The title of a column of the clinical table without its side, and the meaning of positive and negative values.
+#[pyfunction]
+pub(crate) fn clinical_wording(column: &str) -> Option<(&'static str, [&'static str; 2])> {
+    ambulo_report::clinical_wording(column)
+}
+
 /// Results of a run or of a result folder, by the names of the files that the command writes.
 #[pyclass(frozen, module = "ambulo._ambulo")]
 pub(crate) struct Results(pub(crate) ambulo_cli::Results);

@@ -72,7 +72,7 @@ impl Stream {
         self.rate_hz
     }
 
-    /// Warnings and notes about the motion since its start, and about the latest window: code, severity, message.
+    /// Warnings and notes about the motion since its start, and about the latest window.
     fn findings(&self, py: Python<'_>) -> Vec<Listed> {
         py.detach(|| match &*self.lock() {
             Some(stream) => [listed(stream.doubts()), listed(stream.findings())].concat(),

@@ -75,6 +75,44 @@ def test_readers_need_no_option_where_bodies_are_equal(files, tmp_path):
     assert duckdb.sql(f"select count({KNEE}) from '{frames.folder}/*.parquet'").fetchall() == [(count,)]
 
 
+def test_readers_need_no_option_for_two_bodies_in_two_shards(files, tmp_path):
+    import duckdb
+    import pandas
+    import polars
+
+    # A body with another name of a coordinate.
+    for name in ("walk.mot", "figure.osim"):
+        (tmp_path / name).write_text((files / name).read_text().replace("pro_sup_r", "forearm_r"))
+    (tmp_path / "list.csv").write_text(f"file,model\nwalk.mot,figure.osim\nnone.mot,\n{files / 'walk.mot'},{files / 'figure.osim'}\nnone2.mot,\nagain.mot,figure.osim\n")
+    shutil.copy(tmp_path / "walk.mot", tmp_path / "again.mot")
+    ambulo.batch(tmp_path / "list.csv", tmp_path / "out", part=1, shard="0/2")
+    # The second shard has two trials, and neither can be read.
+    with pytest.raises(ambulo.InputError, match="none of 2 trials"):
+        ambulo.batch(tmp_path / "list.csv", tmp_path / "out", part=1, shard="1/2")
+    place = tmp_path / "out/frames"
+    schemas = [polars.read_parquet_schema(file) for file in place.glob("*.parquet")]
+    assert len(schemas) == 3 and schemas[0] == schemas[1] == schemas[2]
+    frames = polars.scan_parquet(place / "*.parquet").collect()
+    assert frames.columns == list(pandas.read_parquet(place).columns)
+    assert frames.columns == duckdb.sql(f"select * from '{place}/*.parquet'").columns
+    assert 0 < frames["forearm_r"].null_count() < len(frames)
+    assert frames["forearm_r"].null_count() + frames["pro_sup_r"].null_count() == len(frames)
+    card = (tmp_path / "out/README.md").read_text()
+    assert all(f"| `{name}` |" in card for name in [*frames.columns, *polars.scan_parquet(tmp_path / "out/trials/*.parquet").collect_schema()])
+
+
+def test_a_trial_beyond_a_limit_is_a_row_with_the_reason(files, listed, tmp_path):
+    sizes = [(files / name).stat().st_size for name in ("walk.mot", "figure.osim", "walk.c3d", "standing.c3d")]
+    small, large = sum(sizes[:2]), sum(sizes[2:])
+    assert small != large
+    batch = ambulo.batch(listed, tmp_path / "size", size_limit=(small + large) / 2e6)
+    errors = batch.trials.to_polars().collect()["error"]
+    assert [error for error in errors if error and "MB; expected at most" in error]
+    assert sum(error is None for error in errors) == 1
+    with pytest.raises(ambulo.InputError, match="took longer than the limit of 0.000001 s"):
+        ambulo.batch(listed, tmp_path / "time", time_limit=1e-6)
+
+
 def test_a_batch_is_resumed_and_refused_as_by_the_command(batch, listed):
     with pytest.raises(ambulo.InputError, match="has results already"):
         ambulo.batch(listed, batch.folder, part=1, options={"start": 0.5})

@@ -23,7 +23,7 @@ import ambulo
 
 
 def same(one, other):
-    return np.array_equal(one.moments.values, other.moments.values)
+    return np.array_equal(one.moments.to_numpy(), other.moments.to_numpy())
 
 
 def test_files_bytes_and_arrays_give_the_same_forces(files, predicted):
@@ -50,7 +50,7 @@ def test_markers_from_arrays_give_the_forces_of_their_file(files):
     assert np.allclose(made.markers, file.markers, rtol=0, atol=1e-15, equal_nan=True)
     model = ambulo.model(files / "figure.osim")
     one, other = ambulo.forces(file, model), ambulo.forces(made, model)
-    assert np.abs(one.moments.values - other.moments.values).max() < 1e-6
+    assert np.abs(one.moments.to_numpy() - other.moments.to_numpy()).max() < 1e-6
 
 
 def test_ground_forces_in_memory_are_used(files):
@@ -83,8 +83,9 @@ def test_models_recordings_and_tables_can_be_pickled(files, result):
     assert same(ambulo.forces(recording, model), ambulo.forces(files / "walk.mot", files / "figure.osim"))
     table = pickle.loads(pickle.dumps(result.moments))
     assert table.names == result.moments.names
-    assert np.array_equal(table.values, result.moments.values)
-    assert pickle.loads(pickle.dumps(result.events))["side"] == result.events["side"]
+    assert np.array_equal(table.to_numpy(), result.moments.to_numpy())
+    assert np.array_equal(pickle.loads(pickle.dumps(result.events))["side"], result.events["side"])
+    assert pickle.loads(pickle.dumps(result.cycles))["percent"].dtype == np.int64
 
 
 def test_a_result_of_another_process_has_the_same_tables_and_page(files, result, tmp_path):
@@ -167,12 +168,48 @@ import os; os._exit(0)
     assert float(seconds) < 300
 
 
+LEFT_BEHIND = {
+    "tune": "ambulo.tune(SCENE, FOLDER / 'gains.toml', evaluations=100000, jobs=1)",
+    "reproduce": "ambulo.reproduce(FOLDER / 'paper')",
+}
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="threads are listed by Linux")
+@pytest.mark.parametrize("call", LEFT_BEHIND.values(), ids=LEFT_BEHIND.keys())
+def test_ctrl_c_stops_the_work_and_not_only_the_wait(call, tmp_path):
+    code = f"""
+import os, pathlib, time, ambulo
+SCENE, FOLDER = {str(REPOSITORY / "examples/pushed-walker.toml")!r}, pathlib.Path({str(tmp_path)!r})
+
+def working():
+    names = [task / "comm" for task in pathlib.Path("/proc/self/task").iterdir()]
+    return any(name.read_text().startswith("ambulo") for name in names if name.is_file())
+
+print("begins", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    while working():
+        time.sleep(0.01)
+    print("ended", flush=True)
+os._exit(0)
+"""
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as program:
+        assert program.stdout.readline() == "begins\n"
+        time.sleep(1)
+        program.send_signal(signal.SIGINT)
+        # The thread of the computation ends by itself. A search of this length would go on for hours.
+        assert program.stdout.read() == "ended\n"
+    assert not (tmp_path / "paper").exists()
+
+
 def test_the_page_is_shown_in_a_notebook(result):
     page = result.page()
     assert page.startswith("<!DOCTYPE html>") or page.lower().startswith("<!doctype html>")
     shown = result._repr_html_()
-    assert shown.startswith("<iframe srcdoc=")
-    assert "de-leva" in shown
+    # A notebook stores what it shows; the page has more than a megabyte.
+    assert len(shown) < 5_000 < 200_000 < len(page)
+    assert "de-leva" in shown and "quality" in shown and "moments.sto" in shown
     table = result.moments._repr_html_()
     assert table.count("<tr>") == 10
     assert "<th>hip_flexion_r_moment</th>" not in table
@@ -186,9 +223,20 @@ def test_curves_are_drawn(result):
     matplotlib.use("Agg")
     for over in ("time", "cycle"):
         figure = result.plot(over=over)
-        lines = [line for panel in figure.axes for line in panel.get_lines()]
         assert len(figure.axes) == 6
-        assert len(lines) == 12
+        for panel in figure.axes:
+            # The zero line is the last one. The lines of both legs differ, so that both are visible where they agree.
+            *curves, _ = panel.get_lines()
+            assert [curve.get_linestyle() for curve in curves] == ["-", "--"]
+            bands = [band for band in panel.collections if len(band.get_paths()[0].vertices) > 100]
+            assert len(bands) == (2 if over == "cycle" else 0)
+        signs = {panel.get_title(): [text.get_text() for text in panel.texts] for panel in figure.axes}
+        assert signs["Ankle dorsiflexion"] == ["dorsiflexion", "plantarflexion"]
+        # The panel says that the internal moment of the plantarflexors is positive.
+        assert signs["Ankle moment"] == ["plantarflexor", "dorsiflexor"]
+    assert len(result.plot("knee_flexion").axes) == 1
+    with pytest.raises(ambulo.InputError, match="found none"):
+        result.plot([])
     with pytest.raises(ambulo.InputError, match="found 'nothing'"):
         result.plot(["nothing"])
 

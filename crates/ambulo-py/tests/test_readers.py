@@ -16,7 +16,19 @@ def test_pandas_reads_a_table(result):
     assert list(frame.columns) == ["time", *result.moments.names]
     assert np.array_equal(frame[KNEE].to_numpy(), result.moments[KNEE])
     assert frame.attrs["units"][KNEE] == "N.m"
-    assert list(result.events.to_pandas()["side"]) == result.events["side"]
+    assert list(result.events.to_pandas()["side"]) == list(result.events["side"])
+
+
+def test_pandas_takes_a_table_with_its_names_and_the_time(result):
+    import pandas
+
+    frame = pandas.DataFrame(result.moments)
+    assert list(frame.columns) == ["time", *result.moments.names]
+    assert np.array_equal(frame[KNEE], result.moments[KNEE]) and np.array_equal(frame["time"], result.moments.time)
+    assert list(pandas.DataFrame(result.moments, columns=[KNEE]).columns) == [KNEE]
+    cycles = pandas.DataFrame(result.cycles)
+    assert cycles["cycle"].dtype == cycles["percent"].dtype == np.int64
+    assert cycles["value"].dtype == np.float64
 
 
 def test_polars_reads_a_table_with_and_without_our_function(result):
@@ -25,18 +37,23 @@ def test_polars_reads_a_table_with_and_without_our_function(result):
     for frame in (result.moments.to_polars(), polars.DataFrame(result.moments)):
         assert frame.columns == ["time", *result.moments.names]
         assert np.array_equal(frame[KNEE].to_numpy(), result.moments[KNEE])
-    assert polars.DataFrame(result.events)["side"].to_list() == result.events["side"]
+    assert polars.DataFrame(result.events)["side"].to_list() == list(result.events["side"])
+    assert polars.DataFrame(result.cycles).schema["percent"] == polars.Int64
 
 
 def test_duckdb_and_pyarrow_read_a_table(result):
     import duckdb
-    import pyarrow
 
-    moments = pyarrow.table(result.moments)
+    moments = result.moments.to_pyarrow()
     assert moments.schema.field(KNEE).metadata == {b"unit": b"N.m"}
     assert np.array_equal(moments[KNEE].to_numpy(), result.moments[KNEE])
     found = duckdb.sql(f"select max({KNEE}) from moments").fetchall()
     assert found == [(result.moments[KNEE].max(),)]
+    events = result.events
+    found = duckdb.sql("select count(*) from events where side = 'r'").fetchall()
+    assert found == [(sum(events["side"] == "r"),)]
+    assert str(result.cycles.to_pyarrow().schema.field("percent").type) == "int64"
+    assert result.events.to_pyarrow()["side"].to_pylist() == list(events["side"])
 
 
 def test_duckdb_polars_and_pyarrow_read_the_tables_of_a_batch(files, tmp_path):
@@ -74,5 +91,5 @@ def test_import_loads_none_of_them():
 
 
 def test_numpy_takes_a_table_as_an_array(result):
-    assert np.asarray(result.moments) is result.moments.values
+    assert np.asarray(result.moments) is result.moments.to_numpy()
     assert np.asarray(result.moments, dtype=np.float32).dtype == np.float32

@@ -30,7 +30,7 @@ def q(files, model):
 def streamed(model, frames, **options):
     stream = ambulo.Stream(model, 100, **options)
     parts = [stream.push(part) for part in frames] + [stream.finish()]
-    return np.concatenate([part.time for part in parts]), np.vstack([part.values for part in parts]), stream
+    return np.concatenate([part.time for part in parts]), np.vstack([part.to_numpy() for part in parts]), stream
 
 
 def test_frames_and_arrays_of_frames_give_the_same_bits(model, q):
@@ -57,7 +57,7 @@ def test_an_upright_body_is_carried_and_its_moments_are_those_of_inverse_dynamic
         )
     vertical = sum(load[:, 1] for load in loads.values())
     assert vertical == pytest.approx(model.mass * GRAVITY, rel=1e-3)
-    moments = table.select(model.force_names).values
+    moments = table.select(model.force_names).to_numpy()
     rest = still[: len(table)]
     assert np.abs(moments - model.inverse_dynamics(rest, rest, rest, loads)).max() < 1e-6
     flipped = {body: load * [1, -1, 1, 1, 1, 1, 1, 1, 1] for body, load in loads.items()}
@@ -90,7 +90,7 @@ def test_names_and_units_are_those_of_the_tables_of_a_run(model, predicted):
     assert table.to_pandas().shape == (13, 1 + len(stream.names))
     assert table.rate == pytest.approx(100)
     with pytest.raises(ValueError, match="read-only"):
-        table.values[0, 0] = 1
+        table.to_numpy()[0, 0] = 1
 
 
 def test_a_gap_returns_no_frames_and_a_longer_delay_more_of_them_later(model, q):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -39,7 +40,7 @@ def test_a_table_over_time_is_the_file_of_the_command(result, folder, name, file
     names, values = storage(folder / file)
     assert ["time", *table.names] == names
     assert same_bits(table.time, values[:, 0])
-    assert same_bits(table.values, values[:, 1:])
+    assert same_bits(table.to_numpy(), values[:, 1:])
     assert all(same_bits(table[column], values[:, i]) for i, column in enumerate(names))
 
 
@@ -67,7 +68,7 @@ def test_the_clinical_table_is_the_file_of_the_command(result, folder):
         names, *rows = csv.reader(text)
     values = np.array([[float(cell) for cell in row] for row in rows])
     assert ["time", *result.clinical.names] == names
-    assert same_bits(result.clinical.values, values[:, 1:])
+    assert same_bits(result.clinical.to_numpy(), values[:, 1:])
 
 
 def test_standard_deviations_exist_for_predicted_forces_only(result, predicted, tmp_path):
@@ -79,7 +80,7 @@ def test_standard_deviations_exist_for_predicted_forces_only(result, predicted, 
     predicted.save(tmp_path / "out")
     names, values = storage(tmp_path / "out/grf_sd.mot")
     assert ["time", *predicted.sd.names] == names
-    assert same_bits(predicted.sd.values, values[:, 1:])
+    assert same_bits(predicted.sd.to_numpy(), values[:, 1:])
     assert predicted.sd.unit("ground_force_r_vy_sd") == "N"
 
 
@@ -129,7 +130,7 @@ def test_an_opened_folder_has_the_same_tables(result, folder, tmp_path):
         one, other = opened.table(name), result.table(name)
         assert one.names == other.names
         assert one.units == other.units
-        assert same_bits(one.values, other.values), name
+        assert same_bits(one.to_numpy(), other.to_numpy()), name
     opened.save(tmp_path / "copy")
     assert (tmp_path / "copy/summary.json").read_bytes() == (folder / "summary.json").read_bytes()
     assert ambulo.open(tmp_path / "copy").page() == (folder / "report.html").read_text()
@@ -137,15 +138,45 @@ def test_an_opened_folder_has_the_same_tables(result, folder, tmp_path):
 
 def test_a_table_acts_like_a_mapping(result):
     moments = result.moments
-    assert moments.keys() == ["time", *moments.names]
-    assert [name for name, _ in moments.items()] == moments.keys()
+    assert list(moments) == list(moments.keys()) == ["time", *moments.names]
+    assert [name for name, _ in moments.items()] == list(moments) and len(moments.values()) == len(moments.names) + 1
     assert same_bits(dict(moments)["knee_angle_r_moment"], moments["knee_angle_r_moment"])
     assert dict(moments)["time"] is moments.time
     some = moments[["time", "knee_angle_r_moment", "hip_flexion_l_moment"]]
     assert some.names == ("knee_angle_r_moment", "hip_flexion_l_moment") and some.units == ("N.m", "N.m")
     early = moments[:10]
-    assert len(early) == 10 and len(early.time) == 10 and same_bits(early.to_numpy(), moments.values[:10])
+    assert len(early) == 10 and len(early.time) == 10 and same_bits(early.to_numpy(), moments.to_numpy()[:10])
     assert early.rate == pytest.approx(moments.rate)
+    assert isinstance(moments, dict) and moments == moments and moments in {moments}
+    for change in (lambda: moments.update(time=0), lambda: moments.pop("time"), lambda: moments.__setitem__("time", 0)):
+        with pytest.raises(TypeError, match="cannot be changed"):
+            change()
+    with pytest.raises(ambulo.InputError, match="has no time"):
+        result.cycles.time  # noqa: B018
+    with pytest.raises(ambulo.InputError, match="frame rate"):
+        moments[:1].rate  # noqa: B018
+    assert np.array_equal(result.events.time, result.events["time"])
+    assert list(result.events["side"][result.events["event"] == "strike"])
+
+
+def test_what_a_run_does_not_have_raises_the_reason(result, tmp_path):
+    swept = ambulo.sweep(mass=[75])
+    assert result.has("model") and result.has("verdict") and not swept.has("verdict") and not swept.has("quality")
+    with pytest.raises(ambulo.InputError, match=r"this run has no verdict: only runs of the motion of a person"):
+        swept.verdict  # noqa: B018
+    with pytest.raises(ambulo.InputError, match=r"this run has no model"):
+        swept.model  # noqa: B018
+
+
+def test_findings_have_the_same_keys_in_every_class(files):
+    of_model = ambulo.model(re.sub(r'Version="\d+"', 'Version="99999"', (files / "figure.osim").read_text()).encode())
+    stream = ambulo.Stream(of_model, rate=100)
+    stream.push(np.zeros((300, len(of_model.coordinates))))
+    of_result = ambulo.forces(files / "walk.c3d", mass=60)
+    keys = set(ambulo.Finding.__annotations__)
+    listed = [of_model.findings, stream.findings, of_result.findings]
+    assert all(set(finding) == keys for findings in listed for finding in findings)
+    assert of_model.findings[0]["code"] == "model.document" and of_result.findings
 
 
 def test_a_table_has_units_rate_and_a_view(result):
@@ -155,10 +186,10 @@ def test_a_table_has_units_rate_and_a_view(result):
     assert result.angles.unit("pelvis_ty") == "m"
     assert result.reactions.units[:9] == ("N",) * 3 + ("N.m",) * 3 + ("m",) * 3
     assert result.angles.rate == pytest.approx(100)
-    assert result.angles.values.base is not None
-    assert np.shares_memory(result.angles["knee_angle_r"], result.angles.values)
+    assert result.angles.to_numpy().base is not None
+    assert np.shares_memory(result.angles["knee_angle_r"], result.angles.to_numpy())
     with pytest.raises(ValueError, match="read-only"):
-        result.angles.values[0, 0] = 1
+        result.angles.to_numpy()[0, 0] = 1
     with pytest.raises(KeyError, match="expected one of"):
         result.angles["no such column"]
     with pytest.raises(KeyError, match="moments.sto"):
@@ -180,7 +211,7 @@ def test_a_walk_a_scene_and_a_sweep_have_the_tables_of_the_command(tmp_path):
         assert sorted(run.tables) == written.tables
         for table in written.tables:
             assert run.table(table).names == written.table(table).names
-            assert same_bits(run.table(table).values, written.table(table).values), table
+            assert same_bits(run.table(table).to_numpy(), written.table(table).to_numpy()), table
     swept = ambulo.sweep(mass=[75])
     assert swept.table("walks")["mass_kg"][0] == 75
     assert len(swept.table("sweep")) == 202

@@ -64,7 +64,17 @@ def test_values_in_memory_are_inputs(files):
     from_frame = ambulo.forces(files / "walk.mot", model, grf=frame, loads=files / "walk_grf.xml")
     from_file = ambulo.forces(files / "walk.mot", model, grf=files / "walk_grf.mot", loads=files / "walk_grf.xml")
     # Frames have the numbers of the file, so that the forces have the same bits.
-    assert np.array_equal(from_frame.moments.values, from_file.moments.values)
+    assert np.array_equal(from_frame.moments.to_numpy(), from_file.moments.to_numpy())
+    assert ambulo.compare(frame, table, limit=0)[0]["rmse"] == 0
+    from_table = ambulo.forces(ambulo.read(files / "walk.mot").table, model)
+    assert np.array_equal(from_table.angles.to_numpy(), ambulo.forces(files / "walk.mot", model).angles.to_numpy())
+    with (files / "walk.c3d").open("rb") as file:
+        assert ambulo.events(file) == ambulo.events(files / "walk.c3d")
+    with pytest.raises(ambulo.InputError, match="found bytes without a name"):
+        ambulo.info(io.BytesIO(b"x"))
+    with pytest.raises(ambulo.InputError) as refused:
+        ambulo.info(ambulo.read(b"x", "mine.c3d"))
+    assert str(refused.value).startswith("mine.c3d") and refused.value.file == "mine.c3d"
     with pytest.raises(ambulo.InputError, match="column `time`"):
         ambulo.forces(files / "walk.mot", model, grf=frame.drop(columns="time"))
 

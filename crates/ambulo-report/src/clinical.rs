@@ -209,6 +209,14 @@ pub(crate) fn wording(id: &str) -> Option<Wording> {
     Some(Wording { title: row.title, unit: row.group.unit(), directions: row.directions })
 }
 
+/// The title of a column of `clinical.csv` without its side (`knee_flexion`, `knee_flexion_moment`), and the meaning of
+/// its positive and of its negative values; `None` for other names.
+#[must_use]
+pub fn clinical_wording(column: &str) -> Option<(&'static str, [&'static str; 2])> {
+    let known = wording(column).or_else(|| wording(&format!("{column}_angle")))?;
+    Some((known.title, known.directions))
+}
+
 /// Whether numbers of a unit (`BW`, `deg`, `N.m`, ...) change by more than rounding and filters change a constant.
 /// Joints that are locked, and the sideways force of a body that moves in a plane, do not.
 pub(crate) fn moves(unit: &str, values: &[f64]) -> bool {

@@ -19,6 +19,7 @@ mod sweep;
 mod validation;
 
 pub use batch::{BATCH_QUANTITIES, BatchQuantity, BatchTrial, batch_page};
+pub use clinical::clinical_wording;
 pub use clinical_file::clinical_file;
 pub use exchange::{
     ExchangeError, GroundReactions, bvh_of_folder, c3d_of_markers, csv_of_folder, glb_of_folder, glb_of_motion,

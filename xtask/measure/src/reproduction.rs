@@ -10,6 +10,7 @@ use ambulo_paper::{
 };
 use std::fmt::Write;
 use std::fs;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 const PAGE: &str = "docs/measured/REPRODUCTION.md";
@@ -42,7 +43,7 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     // Of the file, not of this program, which may be older.
     let stored =
         fs::read_to_string(workspace::root().join(SHARES)).map_err(|e| format!("{SHARES}: cannot read: {e}"))?;
-    let others = sensitivities(&setting, &paper, &mut |_, _| {});
+    let others = sensitivities(&setting, &paper, &mut |_, _| ControlFlow::Continue(()));
     let page = text(&Results { claims, others, named, shares: read_shares(&stored), setting });
     println!("{page}");
     if write {

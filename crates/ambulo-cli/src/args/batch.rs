@@ -1,6 +1,6 @@
 //! Options of `ambulo batch`.
 
-use super::values::{from_one, jobs, part};
+use super::values::{above_zero, from_one, jobs, megabytes, part};
 use super::{CheckArgs, PrintArgs, TrialWords, json};
 use ambulo::job::json as text;
 use ambulo_results::Keep;
@@ -26,7 +26,8 @@ after `--` are options of `ambulo forces` for every trial.
 
 Files written to DIR, for DuckDB, polars, pandas and Spark: trials/, frames/, cycles/, events/, each with one
 file for a part of the trials. The file in trials/ is written last and completes its part. summary.html is
-written when all parts of all shards are complete. A trial that cannot be computed is a row with its error.
+written when all parts of all shards are complete, and README.md, which lists what the tables hold. A trial
+that cannot be computed is a row with its error.
 After an interruption, --resume computes the missing parts; the files have the same bytes as those of an
 uninterrupted run, with any number of --jobs. Exit code: 0 if any trial has results, 2 if none; with --check 1
 if a trial could not be computed, has bad data or an infeasible motion.")]
@@ -65,6 +66,14 @@ pub(crate) struct BatchArgs {
     #[arg(long, value_name = "N", value_parser = from_one)]
     #[serde(default, deserialize_with = "json::limit")]
     pub(crate) limit: Option<u32>,
+    /// Longest time for one trial [s]: a trial that takes longer ends after its stage and is a row with its error.
+    #[arg(long, value_name = "S", value_parser = above_zero)]
+    #[serde(default, deserialize_with = "json::duration_s")]
+    pub(crate) time_limit: Option<f64>,
+    /// Largest size of all files of one trial [MB]: a larger trial is not read and is a row with its error.
+    #[arg(long, value_name = "MB", value_parser = megabytes)]
+    #[serde(default, deserialize_with = "json::megabytes")]
+    pub(crate) size_limit: Option<f64>,
     /// Only print which trials were found, with which files.
     #[arg(long)]
     #[serde(default)]

@@ -42,6 +42,10 @@ pub(super) fn duration_s<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f6
     number(from, above_zero)
 }
 
+pub(super) fn megabytes<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    number(from, values::megabytes)
+}
+
 pub(super) fn load<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Load>, D::Error> {
     let found: Option<String> = text::optional(from)?;
     found.map(|load| parsed(&load, values::load)).transpose()

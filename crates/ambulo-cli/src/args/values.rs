@@ -165,6 +165,13 @@ pub(super) fn above_zero(text: &str) -> Result<f64, String> {
     }
 }
 
+pub(super) fn megabytes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(size) if size.is_finite() && size > 0.0 => Ok(size),
+        _ => Err("expected a number of megabytes above 0".into()),
+    }
+}
+
 /// The force of a push [N]; larger ones are typing errors.
 pub(super) fn force(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -6,17 +6,21 @@ use crate::record::run_id;
 use crate::replacement::ResultTarget;
 use crate::{Completion, files, printer};
 use ambulo_paper::{
-    Claim, CorrectedMode, Evidence, Mode, NAMED, Scope, Sensitivity, Setting, TrialSettings, add_experiments, claims,
-    sensitivities,
+    Claim, CorrectedMode, Evidence, Mode, NAMED, ReproductionError, Run, Scope, Sensitivity, Setting, TrialSettings,
+    add_experiments, claims, sensitivities,
 };
 use ambulo_report::{reproduction_files, reproduction_page};
 use ambulo_results::{CLAIMS, Keep, OutputFile, summary_json};
 use anyhow::{Context, Result, bail};
 use serde_json::json;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
+/// Why nothing was written.
+const STOPPED: &str = "the computation was stopped; nothing was written";
+
+pub(crate) fn run(args: &ReproduceArgs, caller: &Caller) -> Result<Completion> {
     let setting = args.setting.as_deref().map_or_else(|| Ok(Setting::papers_results()?), read_setting)?;
     if let Some(path) = &args.write_setting {
         let inputs: Vec<PathBuf> = args.setting.iter().cloned().collect();
@@ -35,14 +39,18 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<Completion> {
     let target = ResultTarget::for_run(&args.output, args.replace.existing())?;
     let start = Instant::now();
     let clock = move || start.elapsed().as_secs_f64();
-    let mut mode = |trial: &TrialSettings<'_>| setting.walk(trial);
+    let mut mode = |trial: &TrialSettings<'_>| unless_stopped(caller, trial, &mut |trial| setting.walk(trial));
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
-    let mut mode = CorrectedMode::of(&setting);
-    let corrected = gather("the corrected mode", &mut |trial: &TrialSettings<'_>| mode.walk(trial), &clock, args)?;
+    let mut corrected_mode = CorrectedMode::of(&setting);
+    let mut mode = |trial: &TrialSettings<'_>| unless_stopped(caller, trial, &mut |trial| corrected_mode.walk(trial));
+    let corrected = gather("the corrected mode", &mut mode, &clock, args)?;
     printer::progress("loops, obstacles, grasping, hand in hand, and a walk by own torques", args.print);
     let mut claims: Vec<Claim> = claims(&paper, Some(&corrected));
     add_experiments(&mut claims, &paper, &setting)?;
-    let others = if args.brief { Vec::new() } else { other_values(&setting, &paper, args) };
+    let others = if args.brief { Vec::new() } else { other_values(&setting, &paper, args, caller) };
+    if caller.is_stopped() {
+        bail!(STOPPED);
+    }
     let modes = [("The paper's mode", &paper), ("The corrected mode", &corrected)];
     let mut written = reproduction_files(&claims, &paper, Some(&corrected), &setting, &others)?;
     written.push(reproduction_page(&claims, &modes, &setting, &others, &written));
@@ -74,12 +82,21 @@ fn read_setting(path: &Path) -> Result<Setting> {
     Setting::from_toml(&text).with_context(|| path.display().to_string())
 }
 
-fn other_values(setting: &Setting, paper: &Evidence, args: &ReproduceArgs) -> Vec<Sensitivity> {
+fn other_values(setting: &Setting, paper: &Evidence, args: &ReproduceArgs, caller: &Caller) -> Vec<Sensitivity> {
     sensitivities(setting, paper, &mut |done, all| {
         if done % 10 == 0 {
             printer::progress(&format!("other values that the paper does not give, {done} of {all}"), args.print);
         }
+        if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })
+}
+
+/// Makes a walk, unless the caller stopped the computation.
+fn unless_stopped(caller: &Caller, trial: &TrialSettings<'_>, walk: &mut Mode<'_>) -> Result<Run, ReproductionError> {
+    match caller.is_stopped() {
+        true => Err(ReproductionError::Mode { gait: trial.gait.name.clone(), reason: STOPPED.to_owned() }),
+        false => walk(trial),
+    }
 }
 
 fn gather(name: &str, mode: &mut Mode<'_>, clock: &dyn Fn() -> f64, args: &ReproduceArgs) -> Result<Evidence> {

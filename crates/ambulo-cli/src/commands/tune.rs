@@ -18,7 +18,7 @@ use std::time::Instant;
 /// Forces of the report as shares of the largest one of the search.
 const REPORTED: [f64; 3] = [0.5, 0.75, 1.0];
 
-pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
+pub(crate) fn run(args: &TuneArgs, caller: &Caller) -> Result<Completion> {
     let gains = if args.gains.is_empty() { None } else { Some(Gain::named(&args.gains).context("--gains")?) };
     let mut inputs = vec![args.scene.clone()];
     let state = args.output.with_extension("state.json");
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<Completion> {
     };
     // A run that ended before its first generation has saved no state, so the search restarts.
     let saved = if args.resume && state.exists() { saved.resumed(&state)? } else { saved };
-    let run = TuneRun { args, problem: &problem, torques: figure.torques, state, saved };
+    let run = TuneRun { args, caller, problem: &problem, torques: figure.torques, state, saved };
     run.finish()?;
     Ok(Completion::Passed)
 }
@@ -119,6 +119,7 @@ impl SavedTuning {
 
 struct TuneRun<'a> {
     args: &'a TuneArgs,
+    caller: &'a Caller,
     problem: &'a TuningProblem,
     /// The file of torque curves that the scene names.
     torques: Option<String>,
@@ -153,9 +154,11 @@ impl TuneRun<'_> {
 
     fn outcomes(&self, tasks: &[Task]) -> Result<Vec<TrialOutcome>> {
         let threads = self.args.jobs.map_or_else(processors, |jobs| jobs as usize);
-        let of = |k: usize| self.problem.outcome(&tasks[k].settings, &tasks[k].pushes);
-        let outcomes: Result<Vec<_>, _> = side_by_side(tasks.len(), threads, of).into_iter().collect();
-        Ok(outcomes?)
+        let of = |k: usize| match self.caller.is_stopped() {
+            true => bail!("the search was stopped; what it has found is saved. hint: --resume continues"),
+            false => Ok(self.problem.outcome(&tasks[k].settings, &tasks[k].pushes)?),
+        };
+        side_by_side(tasks.len(), threads, of).into_iter().collect()
     }
 
     /// Force [N], and what becomes of the pushes of the report with the gains of the scene and with the tuned ones.

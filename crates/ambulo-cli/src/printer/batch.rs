@@ -126,7 +126,7 @@ pub(crate) fn batch_progress(done: usize, all: usize, rate: f64, left_s: f64, pr
 
 /// The failures by reason, the most frequent first: errors that differ in their numbers and names of files only have
 /// the same reason, of which the first is shown.
-fn failures<'a>(rows: &[&'a BatchRow]) -> Vec<(&'a str, Vec<&'a str>)> {
+pub(crate) fn failures<'a>(rows: &[&'a BatchRow]) -> Vec<(&'a str, Vec<&'a str>)> {
     let mut groups: Vec<(String, &str, Vec<&str>)> = Vec::new();
     for (row, error) in rows.iter().filter_map(|row| Some((row, row.error.as_deref()?))) {
         // The message begins with the name of the trial or of its file.

@@ -16,7 +16,7 @@ mod tools;
 mod tune;
 mod validate;
 
-pub(crate) use batch::{BatchCounts, BatchRow, batch, batch_plan, batch_progress};
+pub(crate) use batch::{BatchCounts, BatchRow, batch, batch_plan, batch_progress, failures};
 pub(crate) use calibrate::calibrate;
 pub(crate) use forces::forces;
 pub(crate) use report::{report, view};

@@ -24,7 +24,8 @@ from ambulo._calls import (
     validate,
     walk,
 )
-from ambulo._errors import AmbuloError, AmbuloWarning, InputError
+from ambulo._errors import AmbuloError, AmbuloWarning, Finding, InputError
+from ambulo._options import ForcesOptions, MuscleOptions
 from ambulo._person import Person
 from ambulo._recording import Recording, coordinates, markers, read
 from ambulo._result import Result
@@ -40,8 +41,11 @@ __all__ = [
     "AmbuloWarning",
     "Batch",
     "BatchTable",
+    "Finding",
+    "ForcesOptions",
     "InputError",
     "Model",
+    "MuscleOptions",
     "Person",
     "Recording",
     "Result",

@@ -4,25 +4,38 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ambulo import _ambulo
 from ambulo._batch import Batch
 from ambulo._errors import InputError
-from ambulo._inputs import Inputs, listed, numbers
+from ambulo._inputs import Inputs, listed, numbers, of_trials
 from ambulo._person import Person
-from ambulo._recording import Recording
+from ambulo._recording import content
 from ambulo._result import Result
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from ambulo._ambulo import Model
-    from ambulo._table import Table
+    from ambulo._options import (
+        Body,
+        Consistent,
+        Convention,
+        File,
+        Filter,
+        Fit,
+        ForcesOptions,
+        Hip,
+        KneeAxis,
+        MuscleOptions,
+        Path,
+        Recorded,
+        WalkMode,
+    )
 
-    _Path = str | os.PathLike[str]
-    _Cutoff = float | str
 
-
-def model(path: _Path | bytes, name: str | None = None) -> Model:
+def model(path: File, name: str | None = None) -> Model:
     """Read an OpenSim model.
 
     Parameters
@@ -47,56 +60,57 @@ def model(path: _Path | bytes, name: str | None = None) -> Model:
     -----
     Which parts of a model are read: docs/OPENSIM.md. `Model.findings` has what is not.
     """
-    if isinstance(path, (bytes, bytearray, memoryview)):
-        return _ambulo.Model(bytes(path), "model.osim" if name is None else name)
-    return _ambulo.Model(_ambulo.read(path), os.fspath(path) if name is None else name)
+    data, file = content(path)
+    if data is not None:
+        return _ambulo.Model(data, str(name or getattr(path, "name", "model.osim")))
+    return _ambulo.Model(_ambulo.read(file), os.fspath(file) if name is None else name)
 
 
 def forces(
-    recording: Recording | _Path | None = None,
-    model: Model | _Path | bytes | None = None,
+    recording: Recorded | None = None,
+    model: Body | None = None,
     *,
-    setup: _Path | Sequence[_Path] | None = None,
+    setup: Path | Sequence[Path] | None = None,
     mass: float | None = None,
     height: float | None = None,
-    static: Recording | _Path | None = None,
-    functional: Recording | _Path | None = None,
-    grf: Recording | Table | _Path | None = None,
-    loads: _Path | bytes | None = None,
+    static: Recorded | None = None,
+    functional: Recorded | None = None,
+    grf: Recorded | None = None,
+    loads: File | None = None,
     right: str | None = None,
     left: str | None = None,
     plates: Mapping[int, str] | None = None,
     trial: int | str | None = None,
-    smpl: _Path | bytes | None = None,
+    smpl: File | None = None,
     heading: str | None = None,
     earth: tuple[float, float, float] | None = None,
-    person: Person | _Path | bytes | None = None,
+    person: Person | File | None = None,
     predict: bool = False,
     track: bool = False,
     refit: bool = False,
     ground: bool = True,
     figure: str | None = None,
     subject: str | None = None,
-    markers: _Path | None = None,
-    marker_set: _Path | bytes | None = None,
-    fit: str | None = None,
-    hip: str | None = None,
-    knee_axis: str | None = None,
+    markers: Path | None = None,
+    marker_set: File | None = None,
+    fit: Fit | None = None,
+    hip: Hip | None = None,
+    knee_axis: KneeAxis | None = None,
     max_gap: float | None = None,
-    convention: str | None = None,
+    convention: Convention | None = None,
     start: float | None = None,
     end: float | None = None,
     rate: float | None = None,
-    filter: str | None = None,
-    cutoff: _Cutoff | None = None,
-    force_cutoff: _Cutoff | None = None,
+    filter: Filter | None = None,
+    cutoff: float | Literal["off"] | None = None,
+    force_cutoff: float | Literal["same", "off"] | None = None,
     force_delay: float | None = None,
     order: int | None = None,
-    consistent: bool | str | None = None,
-    device: Recording | Table | _Path | None = None,
+    consistent: bool | Consistent | None = None,
+    device: Recorded | None = None,
     add_mass: Sequence[str] | None = None,
-    muscles: bool | Mapping[str, Any] = False,
-    thresholds: _Path | None = None,
+    muscles: bool | MuscleOptions = False,
+    thresholds: Path | None = None,
     keep: Sequence[str] | None = None,
 ) -> Result:
     """Compute joint moments, powers, reactions and ground forces of a recording: ``ambulo forces``.
@@ -265,7 +279,7 @@ def forces(
     return _warned(_ambulo.forces(options, inputs.files()))
 
 
-def calibrate(recording: Recording | _Path, **options: Any) -> Model:
+def calibrate(recording: Recorded, **options: Unpack[ForcesOptions]) -> Model:
     """Return the body that `forces` uses for a recording: the built-in body calibrated from markers, or a scaled model.
 
     Parameters
@@ -289,32 +303,29 @@ def calibrate(recording: Recording | _Path, **options: Any) -> Model:
     -----
     Methods and sources: docs/MARKERS.md. The calibration of predicted ground forces is `calibrate_person`.
     """
-    body = forces(recording, **options).model
-    if body is None:
-        raise InputError("found a body that no OpenSim model can represent; `forces(...).findings` has the reason")
-    return body
+    return forces(recording, **options).model
 
 
 def calibrate_person(
-    trials: Recording | _Path | Sequence[Recording | _Path],
-    model: Model | _Path | bytes | None = None,
+    trials: Recorded | Sequence[Recorded],
+    model: Body | None = None,
     *,
-    grf: Recording | Table | _Path | Sequence[Recording | Table | _Path] | None = None,
-    loads: _Path | bytes | Sequence[_Path | bytes] | None = None,
+    grf: Recorded | Sequence[Recorded] | None = None,
+    loads: File | Sequence[File] | None = None,
     right: str | None = None,
     left: str | None = None,
-    static: Recording | _Path | None = None,
-    functional: Recording | _Path | None = None,
+    static: Recorded | None = None,
+    functional: Recorded | None = None,
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
     subject: str | None = None,
-    markers: _Path | None = None,
-    marker_set: _Path | bytes | None = None,
+    markers: Path | None = None,
+    marker_set: File | None = None,
     plates: Mapping[int, str] | None = None,
-    fit: str | None = None,
-    hip: str | None = None,
-    knee_axis: str | None = None,
+    fit: Fit | None = None,
+    hip: Hip | None = None,
+    knee_axis: KneeAxis | None = None,
     max_gap: float | None = None,
     force_delay: float | None = None,
 ) -> Person:
@@ -380,7 +391,7 @@ def calibrate_person(
     Method, and errors with and without a calibration: docs/GROUND_FORCES.md.
     """
     inputs = Inputs()
-    named = [trials] if isinstance(trials, (Recording, str, os.PathLike)) else trials
+    named = list(trials) if isinstance(trials, (list, tuple)) else [trials]
     paths = [path for trial in named if (path := inputs.path(trial, "trial.c3d"))]
     given = [files if isinstance(files, (list, tuple)) else [files] for files in (grf, loads)]
     measured = [
@@ -410,12 +421,12 @@ def calibrate_person(
 
 
 def validate(
-    folder: _Path,
+    folder: Path,
     *,
     mass: float | None = None,
     height: float | None = None,
     figure: str | None = None,
-    markers: _Path | None = None,
+    markers: Path | None = None,
     track: bool = False,
     jobs: int | None = None,
 ) -> Result:
@@ -459,16 +470,18 @@ def validate(
 
 
 def batch(
-    source: _Path,
-    output: _Path,
+    source: Path,
+    output: Path,
     *,
-    options: Mapping[str, Any] | None = None,
+    options: ForcesOptions | None = None,
     jobs: int | None = None,
     shard: str | None = None,
     resume: bool = False,
     keep: Sequence[str] | None = None,
     part: int | None = None,
     limit: int | None = None,
+    time_limit: float | None = None,
+    size_limit: float | None = None,
 ) -> Batch:
     """Compute all recordings of a folder or a list into Parquet tables: ``ambulo batch``.
 
@@ -480,7 +493,7 @@ def batch(
         A folder with recordings, a list of trials (``.csv``, ``.jsonl``) or a subject of AddBiomechanics (``.b3d``).
     output : str or path-like
         Folder for the tables: a new one, or with `resume` that of an interrupted batch.
-    options : mapping of str to object, optional
+    options : ForcesOptions, optional
         Options of `forces` for every trial, by their names: ``{"predict": True, "start": 0.5}``. Files are paths.
     jobs : int, optional
         Trials that are computed at the same time; the tables do not depend on it.
@@ -494,6 +507,10 @@ def batch(
         Trials in one file of each table.
     limit : int, optional
         Compute only the first trials.
+    time_limit : float, optional
+        Longest time for one trial [s]; a trial that takes longer ends after its stage and is a row with its error.
+    size_limit : float, optional
+        Largest size of all files of one trial [MB]; a larger trial is not read and is a row with its error.
 
     Returns
     -------
@@ -508,7 +525,8 @@ def batch(
 
     Notes
     -----
-    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the parts that are closed are kept, and `resume` continues. Which files are
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the parts that are closed are kept, and `resume` continues. ``README.md`` in the
+    folder says what the tables hold. Which files are
     trials, and the columns of the tables: docs/BATCH.md.
     """
     own = {
@@ -520,17 +538,19 @@ def batch(
         "keep": listed(keep),
         "part": part,
         "limit": limit,
+        "time_limit": time_limit,
+        "size_limit": size_limit,
     }
-    return Batch(_ambulo.run({"batch": {"own": own}}, of_all=dict(options or {})))
+    return Batch(_ambulo.run({"batch": {"own": own}}, of_all=of_trials(options)))
 
 
 def session(
-    folder: _Path | Sequence[_Path],
-    output: _Path,
+    folder: Path | Sequence[Path],
+    output: Path,
     *,
-    options: Mapping[str, Any] | None = None,
-    compare: _Path | None = None,
-    norm: _Path | None = None,
+    options: ForcesOptions | None = None,
+    compare: Path | None = None,
+    norm: Path | None = None,
     name: str | None = None,
     date: str | None = None,
     anonymous: bool = False,
@@ -548,7 +568,7 @@ def session(
         standing trial, models and tables of forces.
     output : str or path-like
         Folder for the results. An earlier session of the same recordings in it is replaced.
-    options : mapping of str to object, optional
+    options : ForcesOptions, optional
         Options of `forces` for every trial, by their names: ``{"mass": 75, "height": 1.75}``. Files are paths.
     compare : str or path-like, optional
         An earlier session of the person (its `output`), to compute what changed.
@@ -583,13 +603,13 @@ def session(
     source = [folder] if isinstance(folder, (str, os.PathLike)) else list(folder)
     own = {"source": source, "output": output, "compare": compare, "norm": norm, "anonymous": anonymous, "jobs": jobs}
     own |= {"name": name, "date": date}
-    return Result(_ambulo.run({"session": {"own": own}}, of_all=dict(options or {}), force=force))
+    return Result(_ambulo.run({"session": {"own": own}}, of_all=of_trials(options), force=force))
 
 
 def walk(
     *,
     speed: float | None = None,
-    gait: _Path | None = None,
+    gait: Path | None = None,
     step_length: float | None = None,
     cadence: float | None = None,
     step_height: float | None = None,
@@ -601,18 +621,18 @@ def walk(
     mass: float | None = None,
     height: float | None = None,
     toe_joint: bool = True,
-    mode: str | None = None,
+    mode: WalkMode | None = None,
     slope: float | None = None,
     load: str | None = None,
     weak: Sequence[str] | None = None,
-    device: _Path | None = None,
+    device: Path | None = None,
     step_width: float | None = None,
     asymmetric: bool = False,
-    torques: _Path | None = None,
+    torques: Path | None = None,
     cycles: int | None = None,
     rate: float | None = None,
-    convention: str | None = None,
-    thresholds: _Path | None = None,
+    convention: Convention | None = None,
+    thresholds: Path | None = None,
     keep: Sequence[str] | None = None,
 ) -> Result:
     """Synthesise a walk at any speed and in any style, and compute its forces: ``ambulo walk``.
@@ -643,7 +663,7 @@ def walk(
         Stature [m].
     toe_joint : bool, optional
         False walks on feet of one segment.
-    mode : {"optimal", "predict", "corrected", "paper"}, optional
+    mode : {"optimal", "predict", "corrected", "paper", "physical"}, optional
         How the walk is computed.
     slope : float, optional
         Slope of the ground [%].
@@ -720,11 +740,11 @@ def walk(
 
 
 def simulate(
-    scene: _Path | bytes,
+    scene: File,
     *,
     duration: float | None = None,
     step: float | None = None,
-    resume: _Path | None = None,
+    resume: Path | None = None,
     keep: Sequence[str] | None = None,
 ) -> Result:
     """Simulate a scene: ``ambulo simulate``.
@@ -772,7 +792,7 @@ def sweep(
     slope: float | str | Sequence[float] | None = None,
     load: float | str | Sequence[float] | None = None,
     weak: Sequence[str] | None = None,
-    device: _Path | None = None,
+    device: Path | None = None,
     predict: bool = False,
     figure: str | None = None,
     keep: Sequence[str] | None = None,
@@ -824,7 +844,7 @@ def sweep(
     return _warned(_ambulo.run({"sweep": {name: numbers(values) for name, values in swept.items()} | others}))
 
 
-def open(folder: _Path) -> Result:
+def open(folder: Path) -> Result:
     """Open a result folder that a run wrote.
 
     Parameters

@@ -6,6 +6,7 @@ import errno
 import re
 import warnings
 from collections.abc import Iterable
+from typing import Literal, TypedDict
 
 
 class AmbuloError(Exception):
@@ -28,6 +29,22 @@ class AmbuloError(Exception):
     line: int | None = None
     hint: str | None = None
 
+    def renamed(self, path: str, name: str) -> AmbuloError:
+        """Return the error with the name of an input in place of the path at which it was read."""
+        error = type(self)(str(self).replace(path, name))
+        error.file, error.line = name if self.file == path else self.file, self.line
+        error.hint = None if self.hint is None else self.hint.replace(path, name)
+        return error
+
+
+class Finding(TypedDict):
+    """A warning or a note: an item of `findings` of a `Result`, `Model` or `Stream` (docs/FINDINGS.md)."""
+
+    code: str
+    severity: Literal["warning", "note"]
+    message: str
+    count: int
+
 
 class InputError(AmbuloError, ValueError):
     """A file, an array or an option that cannot be used."""
@@ -41,18 +58,30 @@ class AmbuloWarning(UserWarning):
 _RENAMED = {"from": "start=", "to": "end=", "plate": "plates=", "no-ground": "ground=False", "no-toe-joint": "toe_joint=False"}
 _SWITCHES = {"predict", "track", "refit", "consistent", "muscles", "force", "knee-axis", "planar", "world", "brief", "resume", "anonymous"}
 #: An option of the command with the description of its value: ``--mass KG``, ``--mass <KG>``, ``--mass``.
-_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A-Z_]*(?:[:|=,.][A-Za-z_.]+)*(?![a-z]))|[ ](?=\d))?")
+_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A-Z_]*(?:[:|=,.][A-Za-z_.][\w.-]*)*(?![a-z]))|[ ](?=\d))?")
+
+#: The command with its verb, and the words that follow.
+_VERB = re.compile(r"`ambulo ([a-z]+)((?:\s[^`]*)?)`")
+#: Verbs with another name in Python.
+_FUNCTIONS = {"calibrate": "calibrate_person"}
+#: What the parser of the command line adds.
+_USAGE = re.compile(r"\s*\n+(?:Usage:|For more information, try).*", re.DOTALL)
 
 
 def in_python(text: str) -> str:
-    """Return a message of the command with the arguments of Python: ``mass=`` for ``--mass KG``."""
+    """Return a message of the command with the names of Python: ``mass=`` for ``--mass KG``, ``ambulo.info(...)`` for ``ambulo info FILE``."""
+
+    def function(found: re.Match[str]) -> str:
+        name = _FUNCTIONS.get(found[1], found[1])
+        return f"`ambulo.{name}(...)`" if found[2] else f"`ambulo.{name}`"
 
     def argument(found: re.Match[str]) -> str:
         name = found[1]
         form = f"{name.replace('-', '_')}=True" if name in _SWITCHES else f"{name.replace('-', '_')}="
         return _RENAMED.get(name, form)
 
-    return _OPTION.sub(argument, text)
+    text = _VERB.sub(function, _USAGE.sub("", text))
+    return _OPTION.sub(argument, text.replace(" with -o", ""))
 
 
 def failure(
@@ -71,10 +100,11 @@ def failure(
     return refused
 
 
-def warn(findings: Iterable[tuple[str, str, str]], stacklevel: int) -> None:
-    """Issue the first warning of each code; a finding is a code, a severity and a message."""
-    known = set()
-    for code, severity, message in findings:
-        if severity == "warning" and code not in known:
+def warn(findings: Iterable[Finding], stacklevel: int) -> None:
+    """Issue the first warning of each code."""
+    known: set[str] = set()
+    for finding in findings:
+        code = finding["code"]
+        if finding["severity"] == "warning" and code not in known:
             known.add(code)
-            warnings.warn(f"{code}: {message}", AmbuloWarning, stacklevel=stacklevel + 1)
+            warnings.warn(f"{code}: {finding['message']}", AmbuloWarning, stacklevel=stacklevel + 1)

@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
+from ambulo import _ambulo
 from ambulo._errors import InputError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ambulo._result import Result
     from ambulo._table import Table
 
 _JOINTS = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
-_PREDICTED = ":"
-_SIDES = (("r", "right", "tab:blue"), ("l", "left", "tab:red"))
+
+
+class _Side(NamedTuple):
+    """How a leg is drawn. The lines differ, so that one leg does not hide the other."""
+
+    letter: str
+    word: str
+    color: str
+    measured: str
+    predicted: str
+
+
+_SIDES = (_Side("r", "right", "tab:blue", "-", ":"), _Side("l", "left", "tab:red", "--", "-."))
 
 
 def clinical_figure(result: Result, names: Sequence[str] | None, over: str) -> Figure:
@@ -28,56 +41,76 @@ def clinical_figure(result: Result, names: Sequence[str] | None, over: str) -> F
     if names is None:
         wanted = [*_JOINTS, *(f"{joint}_moment" for joint in _JOINTS)]
         names = [name for name in wanted if f"{name}_r" in table or f"{name}_l" in table]
+    elif isinstance(names, str):
+        names = [names]
     for name in names:
         if f"{name}_r" not in table and f"{name}_l" not in table:
             known = ", ".join(sorted({column[:-2] for column in table if column[-2:] in ("_r", "_l")}))
             raise InputError(f"found {name!r}; expected one of {known}")
+    if not names:
+        raise InputError("names: found none; expected at least one column of the clinical table without its side")
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
     figure, panels = plt.subplots(rows, columns, squeeze=False, figsize=(4 * columns, 2.6 * rows), layout="constrained")
     for panel, name in zip(panels.flat, names, strict=False):
         _draw(panel, result, table, name, over)
+    for panel in panels.flat[len(names) :]:
+        panel.set_visible(False)
     # The first panel with the most words: the loads of a leg may be predicted in some of them.
-    max(panels.flat, key=lambda panel: len(panel.get_legend_handles_labels()[1])).legend(frameon=False)
+    max(panels.flat, key=lambda panel: len(panel.get_legend_handles_labels()[1])).legend(frameon=False, fontsize="small")
     return figure
 
 
-def _draw(panel: Any, result: Result, table: Table, name: str, over: str) -> None:
-    import numpy as np
-
-    for side, word, color in _SIDES:
-        column = f"{name}_{side}"
-        if column not in table or table.time is None:
+def _draw(panel: Axes, result: Result, table: Table, name: str, over: str) -> None:
+    for side in _SIDES:
+        if f"{name}_{side.letter}" not in table:
             continue
         if over == "time":
-            _draw_over_time(panel, table, name, (side, word, color))
-            continue
-        percent = np.arange(101)
-        strides, is_predicted = _strides(result, side, depends_on_forces=_depends_on_forces(name))
-        curves = [np.interp(start + percent / 100 * (end - start), table.time, table[column]) for start, end in strides]
-        if curves:
-            label = f"{word}, predicted" if is_predicted else word
-            style = _PREDICTED if is_predicted else "-"
-            panel.plot(percent, np.mean(curves, axis=0), style, color=color, label=label)
+            _draw_over_time(panel, table, name, side)
+        else:
+            _draw_over_cycle(panel, result, table, name, side)
     unit = table.unit(next(column for column in (f"{name}_r", f"{name}_l") if column in table))
-    panel.set(title=name.replace("_", " "), ylabel=unit, xlabel="s" if over == "time" else "% of the gait cycle")
+    title, directions = _ambulo.clinical_wording(name) or (name.replace("_", " "), ["", ""])
+    panel.set(title=title, ylabel=unit, xlabel="s" if over == "time" else "% of the gait cycle")
+    panel.axhline(0, color="0.7", linewidth=0.8, zorder=0)
+    # What the signs mean, at the ends of the axis.
+    for word, height, place in zip(directions, (0.98, 0.02), ("top", "bottom"), strict=True):
+        panel.text(0.02, height, word, transform=panel.transAxes, va=place, fontsize="small", color="0.4")
 
 
-def _draw_over_time(panel: Any, table: Table, name: str, of_side: tuple[str, str, str]) -> None:
-    """Draw a curve of one side, dotted where the ground force behind it was predicted."""
+def _draw_over_cycle(panel: Axes, result: Result, table: Table, name: str, side: _Side) -> None:
+    """Draw the mean of one side, with a band of one standard deviation if there are several strides."""
     import numpy as np
 
-    side, word, color = of_side
-    values = np.asarray(table[f"{name}_{side}"], dtype=float)
-    marks = f"ground_source_{side}"
+    percent = np.arange(101)
+    strides, is_predicted = _strides(result, side.letter, depends_on_forces=_depends_on_forces(name))
+    values = table[f"{name}_{side.letter}"]
+    curves = [np.interp(start + percent / 100 * (end - start), table.time, values) for start, end in strides]
+    if not curves:
+        return
+    mean, spread = np.mean(curves, axis=0), np.std(curves, axis=0, ddof=min(1, len(curves) - 1))
+    label = f"{side.word}, predicted" if is_predicted else side.word
+    style = side.predicted if is_predicted else side.measured
+    panel.plot(percent, mean, style, color=side.color, label=f"{label} ({len(curves)})")
+    if len(curves) > 1:
+        panel.fill_between(percent, mean - spread, mean + spread, color=side.color, alpha=0.2, linewidth=0)
+
+
+def _draw_over_time(panel: Axes, table: Table, name: str, side: _Side) -> None:
+    """Draw a curve of one side, in another line where the force behind it was predicted, and none where it is unknown."""
+    import numpy as np
+
+    values = np.asarray(table[f"{name}_{side.letter}"], dtype=float)
+    marks = f"ground_source_{side.letter}"
     is_marked = marks in table and _depends_on_forces(name)
-    is_predicted = np.asarray(table[marks]) > 0 if is_marked else np.zeros(len(values), dtype=bool)
-    panel.plot(table.time, np.where(is_predicted, np.nan, values), color=color, label=word)
+    source = np.asarray(table[marks]) if is_marked else np.zeros(len(values))
+    measured, is_predicted = np.where(source == 0, values, np.nan), source == 1
+    panel.plot(table.time, measured, side.measured, color=side.color, label=side.word)
     if is_predicted.any():
         # With the measured neighbours, so that the curve has no gaps.
         shown = is_predicted | np.append(is_predicted[1:], False) | np.append(False, is_predicted[:-1])
-        predicted = np.where(shown, values, np.nan)
-        panel.plot(table.time, predicted, _PREDICTED, color=color, label=f"{word}, predicted")
+        predicted = np.where(shown & (source != 2), values, np.nan)
+        panel.plot(table.time, predicted, side.predicted, color=side.color, label=f"{side.word}, predicted")
 
 
 def _depends_on_forces(name: str) -> bool:

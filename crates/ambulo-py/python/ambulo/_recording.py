@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
 from ambulo._errors import InputError
@@ -12,7 +12,9 @@ from ambulo._table import Table
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
+
+    from ambulo._options import File
 
 
 class Recording:
@@ -53,12 +55,12 @@ class Recording:
         return list(self._markers()["names"])
 
     @property
-    def markers(self) -> np.ndarray:
+    def markers(self) -> NDArray[np.float64]:
         """Positions of the markers in the laboratory's axes [m], shape (frames, markers, 3); not a number in gaps."""
         return self._markers()["positions"]
 
     @property
-    def times(self) -> np.ndarray:
+    def times(self) -> NDArray[np.float64]:
         """Times of the frames [s], shape (frames,)."""
         if self.format in ("c3d", "trc"):
             return self._markers()["times"]
@@ -66,11 +68,11 @@ class Recording:
             import numpy as np
 
             frames, step_s = self._skeleton()
-            return np.arange(frames) * step_s
+            return np.arange(frames, dtype=np.float64) * np.float64(step_s)
         return self.table["time"]
 
     @property
-    def rate(self) -> float | None:
+    def rate(self) -> float:
         """Frame rate [Hz]."""
         if self.format == "bvh":
             return 1.0 / self._skeleton()[1]
@@ -122,7 +124,7 @@ class Recording:
         return Recording, (self.data, self.name)
 
 
-def read(path: str | os.PathLike[str] | bytes | BinaryIO, name: str | None = None) -> Recording:
+def read(path: File, name: str | None = None) -> Recording:
     """Read a recording: markers (``.c3d``, ``.trc``), coordinates or forces (``.mot``, ``.sto``, ``.csv``), a skeleton (``.bvh``).
 
     Parameters
@@ -148,14 +150,22 @@ def read(path: str | os.PathLike[str] | bytes | BinaryIO, name: str | None = Non
     The content is decoded where it is needed, so errors in it are raised by `forces` and by the attributes of the recording. What is read of each
     format: docs/LABORATORY.md, docs/MOTION_SETS.md, docs/OPENSIM.md.
     """
-    if hasattr(path, "read"):
-        name = getattr(path, "name", None) if name is None else name
-        path = path.read()
-    if isinstance(path, (bytes, bytearray, memoryview)):
-        if name is None:
-            raise InputError("found bytes without a name; expected a name whose ending is the format, such as walk.c3d")
-        return Recording(bytes(path), name)
-    return Recording(_ambulo.read(path), os.fspath(path) if name is None else name)
+    data, file = content(path)
+    if data is None:
+        return Recording(_ambulo.read(file), os.fspath(file) if name is None else name)
+    name = getattr(path, "name", None) if name is None else name
+    if not isinstance(name, str):
+        raise InputError("found bytes without a name; expected a name whose ending is the format, such as walk.c3d")
+    return Recording(data, name)
+
+
+def content(value: Any) -> tuple[bytes | None, Any]:
+    """Return the bytes of a value in memory or of an open file, or None if it is neither, and the value."""
+    if hasattr(value, "read"):
+        value = value.read()
+        if isinstance(value, str):
+            raise InputError("found a file that was opened as text; expected one opened with the mode 'rb'")
+    return bytes(value) if isinstance(value, (bytes, bytearray, memoryview)) else None, value
 
 
 def markers(names: Sequence[str], positions: ArrayLike, rate: float, *, name: str = "markers.trc") -> Recording:
@@ -229,5 +239,15 @@ def coordinates(
     for key, shape in lengths.items():
         if shape != lengths["time"] or len(shape) != 1:
             raise InputError(f"column `{key}`: found the shape {shape}; expected {lengths['time']}, one value per time")
-    array = np.column_stack([np.asarray(values, dtype=np.float64) for values in arrays.values()])
+    array = np.column_stack([_numbers(key, values) for key, values in arrays.items()])
     return Recording(_ambulo.write_table("Coordinates", degrees, list(arrays), array), name)
+
+
+def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return the numbers of a column."""
+    import numpy as np
+
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except ValueError as error:
+        raise InputError(f"column `{name}`: {error}; expected numbers") from None

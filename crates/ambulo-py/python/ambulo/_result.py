@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ambulo import _ambulo
-from ambulo._errors import InputError, warn
+from ambulo._errors import Finding, InputError, warn
 from ambulo._table import Table
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 _CLINICAL = "clinical.csv"
 #: Files of attributes with another name.
 _FILES = {"angles": "kinematics", "contact": "reactions_contact", "cop": "grf", "sd": "grf_sd"}
+_MODELS = ("subject.osim", "figure.osim")
 #: Why a run may not have a table.
 _MISSING = {
     "kinematics.mot": "it is not the run of a motion of a body",
@@ -34,14 +35,21 @@ _MISSING = {
     "stances.csv": "no stance was detected",
     _CLINICAL: "the body has no legs whose joints have clinical signs",
     "times_and_distances.csv": "the motion has no stride",
+    "model": "the body is none that an OpenSim model can represent, or there is none",
+    "quality": "only runs of a recording have one",
+    "verdict": "only runs of the motion of a person have one",
 }
+#: Parts of the summary in the view of a notebook: name, place.
+_FACTS = (("body", "model"), ("body mass [kg]", "mass_kg"), ("speed [m/s]", "speed_m_s"))
+#: Findings that a notebook shows.
+_SHOWN = 5
 
 
 class Result:
     """Results of a run: tables, summary, findings and page, the same as in the files that the command writes.
 
-    Tables are computed when they are asked for. A table that the run does not have raises `InputError` with the reason: `sd` without predicted
-    forces, `grf` without contact, `cycles` without a whole gait cycle; `has` asks first. Signs and axes: docs/CONVENTIONS.md. Columns: docs/OUTPUTS.md.
+    Tables are computed when they are asked for. What the run does not have raises `InputError` with the reason: `sd` without predicted
+    forces, `grf` without contact, `verdict` of a sweep; `has` asks first. Signs and axes: docs/CONVENTIONS.md. Columns: docs/OUTPUTS.md.
     """
 
     def __init__(self, results: _ambulo.Results, folder: TemporaryDirectory[str] | None = None) -> None:
@@ -67,20 +75,25 @@ class Result:
         """Return a table, or raise why the run has none."""
         table = self._table(file)
         if table is None:
-            raise InputError(
-                f"this run has no {file}: {_MISSING.get(file, 'its kind of motion has none')}; "
-                f"it has {', '.join(self.tables) or 'no table'}"
-            )
+            raise self._lacks(file)
         return table
 
+    def _lacks(self, what: str) -> InputError:
+        reason = _MISSING.get(what, "its kind of motion has none")
+        return InputError(f"this run has no {what}: {reason}; it has {', '.join(self.tables) or 'no table'}")
+
     def has(self, name: str) -> bool:
-        """Return whether the run has a table: ``result.has("grf")``.
+        """Return whether the run has a table, or `model`, `quality` or `verdict`: ``result.has("grf")``.
 
         Parameters
         ----------
         name : str
             Name of an attribute, or of a file of `tables` with or without its ending.
         """
+        if name == "model":
+            return any(self._results.content(file) is not None for file in _MODELS)
+        if name in ("quality", "verdict"):
+            return self.summary.get(name) is not None
         wanted = _FILES.get(name, name)
         return any(wanted in (file, file.rsplit(".", 1)[0]) for file in self.tables)
 
@@ -204,14 +217,20 @@ class Result:
         return self._results.timings()
 
     @property
-    def quality(self) -> dict[str, Any] | None:
+    def quality(self) -> dict[str, Any]:
         """Whether recording, body and forces fit together."""
-        return self.summary.get("quality")
+        return self._judgement("quality")
 
     @property
-    def verdict(self) -> dict[str, Any] | None:
+    def verdict(self) -> dict[str, Any]:
         """Whether a person could make this motion, with reasons (docs/JUDGEMENT.md)."""
-        return self.summary.get("verdict")
+        return self._judgement("verdict")
+
+    def _judgement(self, name: str) -> dict[str, Any]:
+        found: dict[str, Any] | None = self.summary.get(name)
+        if found is None:
+            raise self._lacks(name)
+        return found
 
     @property
     def knee_adduction(self) -> list[dict[str, Any]]:
@@ -224,18 +243,18 @@ class Result:
         return list((self.summary.get("muscles") or {}).get("contact_loads", []))
 
     @property
-    def findings(self) -> list[dict[str, Any]]:
+    def findings(self) -> list[Finding]:
         """Warnings and notes: ``code``, ``severity``, ``message``, ``count``."""
         return list(self.summary.get("findings", []))
 
     @property
-    def model(self) -> _ambulo.Model | None:
-        """The body that was used, with the added masses and what residual reduction changed; None if it cannot be an OpenSim model."""
-        for name in ("subject.osim", "figure.osim"):
+    def model(self) -> _ambulo.Model:
+        """The body that was used, with the added masses and what residual reduction changed; `InputError` if it cannot be an OpenSim model."""
+        for name in _MODELS:
             content = self._results.content(name)
             if content is not None:
                 return _ambulo.Model(content, name)
-        return None
+        raise self._lacks("model")
 
     def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
         """Write the folder that the command writes: tables, figures, page and summary.
@@ -261,20 +280,30 @@ class Result:
         return self._results.page().decode()
 
     def _repr_html_(self) -> str:
-        """Show the report page in a notebook."""
+        """Show quality, verdict, warnings and the names of the tables in a notebook; `ambulo.view` opens the page."""
         from html import escape
 
-        page = escape(self.page(), quote=True)
-        return f'<iframe srcdoc="{page}" style="width: 100%; height: 720px; border: 0"></iframe>'
+        facts = [(word, self.summary.get(key)) for word, key in _FACTS]
+        for name in ("quality", "verdict"):
+            found = self.summary.get(name) or {}
+            reasons = [reason["message"] if isinstance(reason, dict) else str(reason) for reason in found.get("reasons", [])]
+            facts.append((name, "; ".join([str(found["state"]), *reasons]) if found else None))
+        warned = [finding["message"] for finding in self.findings if finding["severity"] == "warning"]
+        facts += [("warning", message) for message in warned[:_SHOWN]]
+        facts += [("", f"{len(warned) - _SHOWN} more warnings in findings")] if len(warned) > _SHOWN else []
+        facts.append(("tables", ", ".join(self.tables)))
+        shown = ((word, f"{value:.4g}" if isinstance(value, float) else str(value)) for word, value in facts if value is not None)
+        rows = "".join(f"<tr><th>{escape(word)}</th><td>{escape(text)}</td></tr>" for word, text in shown)
+        return f"<div><table>{rows}</table><p>ambulo.view(result) opens the report page.</p></div>"
 
     def __repr__(self) -> str:
         """Describe the result in one line."""
-        verdict = (self.verdict or {}).get("state", "")
+        verdict = (self.summary.get("verdict") or {}).get("state", "")
         model = self.summary.get("model", "")
         described = ", ".join(part for part in (model, f"verdict {verdict}" if verdict else "") if part)
         return f"<Result {described or 'of ' + ', '.join(self.tables)}>"
 
-    def plot(self, names: Sequence[str] | None = None, *, over: str = "time") -> Figure:
+    def plot(self, names: Sequence[str] | None = None, *, over: Literal["time", "cycle"] = "time") -> Figure:
         """Draw clinical curves of both legs with matplotlib.
 
         Parameters
@@ -282,7 +311,7 @@ class Result:
         names : sequence of str, optional
             Columns of `clinical` without the side, such as ``"knee_flexion"``; flexion and moments of hip, knee and ankle if omitted.
         over : {"time", "cycle"}, optional
-            The abscissa: time, or the mean over the gait cycles.
+            The abscissa: time, or the mean over the gait cycles with a band of one standard deviation.
 
         Returns
         -------
@@ -292,6 +321,12 @@ class Result:
         ------
         InputError
             Results without a clinical table, or a name that it does not have.
+
+        Notes
+        -----
+        The right leg is a full line and the left one a broken line, so that both are visible where they agree. Curves that rest on predicted
+        ground forces are dotted. A mean has the strides whose stance was measured; if no stance of a leg was, the predicted ones. The axis
+        says what positive and negative values mean (docs/CONVENTIONS.md).
         """
         from ambulo._plot import clinical_figure
 
@@ -310,8 +345,7 @@ class Result:
 
     def _warn(self, stacklevel: int) -> Result:
         """Issue the first warning of each code."""
-        found = [(finding["code"], finding["severity"], finding["message"]) for finding in self.findings]
-        warn(found, stacklevel)
+        warn(self.findings, stacklevel)
         return self
 
 

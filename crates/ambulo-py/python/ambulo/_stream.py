@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ambulo import _ambulo
 from ambulo._table import Table
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
-    from ambulo._ambulo import Model
+    from ambulo._errors import Finding
+    from ambulo._options import Body, Filter
 
 
 class Stream:
@@ -67,13 +67,13 @@ class Stream:
 
     def __init__(
         self,
-        model: Model | str | os.PathLike[str] | bytes,
+        model: Body,
         rate: float,
         *,
         delay: float | None = None,
         window: float | None = None,
-        filter: str | None = None,
-        cutoff: float | str | None = None,
+        filter: Filter | None = None,
+        cutoff: float | Literal["off"] | None = None,
         order: int | None = None,
     ) -> None:
         from ambulo._calls import model as read_model
@@ -103,9 +103,9 @@ class Stream:
         return self._stream.delay_frames() / self.rate
 
     @property
-    def findings(self) -> list[dict[str, str]]:
-        """Warnings and notes about the motion that is kept: ``code``, ``severity``, ``message``."""
-        return [dict(zip(("code", "severity", "message"), finding, strict=True)) for finding in self._stream.findings()]
+    def findings(self) -> list[Finding]:
+        """Warnings and notes about the motion that is kept: ``code``, ``severity``, ``message``, ``count``."""
+        return self._stream.findings()
 
     def push(self, q: ArrayLike) -> Table:
         """Add frames, and return the frames that became final.
@@ -152,11 +152,11 @@ class Stream:
         """
         return self._made(self._stream.finish())
 
-    def _made(self, frames: tuple[np.ndarray, np.ndarray]) -> Table:
+    def _made(self, frames: tuple[NDArray[np.float64], NDArray[np.float64]]) -> Table:
         time, values = frames
         time.flags.writeable = values.flags.writeable = False
         columns = [values[:, i] for i in range(len(self._columns))]
-        return Table("Stream", self.names, self.units, columns, time=time, values=values)
+        return Table("Stream", self.names, self.units, columns, time=time, numbers=values)
 
     def __repr__(self) -> str:
         """Describe the stream in one line."""

@@ -4,26 +4,32 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, NoReturn, overload
 
 from ambulo import _ambulo
+from ambulo._errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
     import pandas
     import polars
+    import pyarrow
     import xarray
+    from numpy.typing import NDArray
 
 #: Rows and columns that a notebook shows of a table.
 _SHOWN = 8
+#: Columns of ``.csv`` files that count something.
+_COUNTS = ("cycle", "cycles", "percent", "strides", "n", "n_before", "n_after", "trials", "stances", "iterations", "factorizations")
 
 
-class Table:
-    """Columns of equal length with names and units.
+# A real dictionary: pandas takes names and columns from nothing else.
+class Table(dict[str, Any]):
+    """Columns of equal length with names and units: a dictionary of columns that cannot be changed.
 
-    ``table["knee_angle_r"]`` is a column, ``table[["hip_flexion_r", "knee_angle_r"]]`` a table of some columns, ``table[:100]`` one of some
-    rows; ``numpy.asarray(table)`` are all numbers. ``dict(table)`` has the columns with their names, beginning with the time. pandas, polars, pyarrow and DuckDB read a table
-    directly, by the Arrow PyCapsule interface.
+    ``table["knee_angle_r"]`` is a column, a NumPy array of numbers or texts, ``table[["hip_flexion_r", "knee_angle_r"]]`` a table of some columns, ``table[:100]`` one of some
+    rows; ``numpy.asarray(table)`` are all numbers. Iteration, `keys`, `values` and `items` begin with ``time`` where rows are frames; ``len(table)``
+    is the number of rows. ``pandas.DataFrame(table)``, ``polars.DataFrame(table)`` and DuckDB take the columns with their names.
 
     Attributes
     ----------
@@ -33,21 +39,13 @@ class Table:
         Names of the columns, without the time.
     units : tuple of str
         Unit of each column, such as ``"deg"``, ``"N.m"``; empty where a column has none.
-    rate : float or None
-        Frame rate [Hz]; None if the rows are not frames.
-    time : numpy.ndarray or None
-        Time of each row [s], shape (rows,).
-    values : numpy.ndarray
-        All numbers, shape (rows, columns), float64, read-only, in Fortran order: columns are contiguous. Columns of text are left out.
     """
 
-    __slots__ = ("_columns", "_in_degrees", "_values", "names", "rate", "time", "title", "units")
+    __slots__ = ("_in_degrees", "_numbers", "_of_frames", "names", "title", "units")
 
     title: str
     names: tuple[str, ...]
     units: tuple[str, ...]
-    rate: float | None
-    time: np.ndarray | None
 
     def __init__(
         self,
@@ -56,24 +54,22 @@ class Table:
         units: Sequence[str],
         columns: Sequence[Any],
         *,
-        time: np.ndarray | None = None,
-        values: np.ndarray | None = None,
+        time: NDArray[np.float64] | None = None,
+        numbers: NDArray[np.float64] | None = None,
         in_degrees: bool | None = None,
     ) -> None:
+        super().__init__({} if time is None else {"time": time})
+        super().update(zip(names, columns, strict=True))
         self.title = title
         self.names = tuple(names)
         self.units = tuple(units)
-        self.time = time
-        self.rate = None
-        if time is not None and len(time) > 1:
-            self.rate = (len(time) - 1) / float(time[-1] - time[0])
-        self._columns = dict(zip(self.names, columns, strict=True))
-        self._values = values
+        self._of_frames = time is not None
+        self._numbers = numbers
         self._in_degrees = in_degrees
 
     @classmethod
     def _of_parts(
-        cls, parts: tuple[str, bool | None, list[str], np.ndarray], units: Sequence[str] | None = None
+        cls, parts: tuple[str, bool | None, list[str], NDArray[np.float64]], units: Sequence[str] | None = None
     ) -> Table:
         """Make a table from the parts that the compiled module returns."""
         title, in_degrees, names, array = parts
@@ -82,95 +78,90 @@ class Table:
         first = 1 if names and names[0].lower() == "time" else 0
         columns = [array[:, i] for i in range(first, len(names))]
         time = array[:, 0] if first else None
-        values = array[:, first:]
-        return cls(title, names[first:], units[first:], columns, time=time, values=values, in_degrees=in_degrees)
+        numbers = array[:, first:]
+        return cls(title, names[first:], units[first:], columns, time=time, numbers=numbers, in_degrees=in_degrees)
 
     @classmethod
     def _of_csv(cls, title: str, content: bytes) -> Table:
-        """Read comma-separated values; a column is text if one of its cells is no number."""
+        """Read comma-separated values; a column is text if one of its cells is no number, and whole if it counts."""
         import csv
         import io
 
-        import numpy as np
-
         names, *rows = csv.reader(io.StringIO(content.decode()))
-        columns: list[Any] = []
-        for cells in zip(*rows, strict=True) if rows else ([] for _ in names):
-            try:
-                column = np.array([float(cell) if cell else np.nan for cell in cells])
-                column.flags.writeable = False
-            except ValueError:
-                column = list(cells)  # type: ignore[assignment]
-            columns.append(column)
+        cells = zip(*rows, strict=True) if rows else ([] for _ in names)
+        columns = [_column(name, list(column)) for name, column in zip(names, cells, strict=True)]
         return cls(title, names, [""] * len(names), columns)
 
     @property
-    def values(self) -> np.ndarray:
-        """All numbers, shape (rows, columns)."""
-        if self._values is None:
-            import numpy as np
+    def time(self) -> NDArray[np.float64]:
+        """Time of each row [s], shape (rows,); `InputError` if the table has none."""
+        if "time" not in self:
+            raise InputError(f"the table {self.title!r} has no time; it has {', '.join(self.names)}")
+        return super().__getitem__("time")
 
-            numbers = [column for column in self._columns.values() if not isinstance(column, list)]
-            self._values = np.asfortranarray(np.column_stack(numbers)) if numbers else np.empty((len(self), 0))
-            self._values.flags.writeable = False
-        return self._values
+    @property
+    def rate(self) -> float:
+        """Frame rate [Hz]; `InputError` if rows are not frames, or are fewer than two."""
+        if not self._of_frames or len(self) < 2:
+            raise InputError(f"the table {self.title!r} has no frame rate; expected at least two frames, found {len(self)} rows")
+        return (len(self) - 1) / float(self.time[-1] - self.time[0])
 
     def __len__(self) -> int:
         """Return the number of rows."""
-        return 0 if not self._columns else len(next(iter(self._columns.values())))
-
-    def __iter__(self) -> Iterator[str]:
-        """Iterate over the names of the columns."""
-        return iter(self.names)
-
-    def __contains__(self, name: object) -> bool:
-        """Return whether the table has this column."""
-        return name in self._columns
+        return len(next(iter(super().values()), ()))
 
     @overload
-    def __getitem__(self, name: str) -> Any: ...
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
     @overload
     def __getitem__(self, name: slice | list[str]) -> Table: ...
     def __getitem__(self, name: str | slice | list[str]) -> Any:
-        """Return a column (a NumPy array, or a list of texts), a table of some columns, or a table of some rows."""
+        """Return a column, a table of some columns, or a table of some rows."""
         if isinstance(name, slice):
-            columns = [column[name] for column in self._columns.values()]
-            time = None if self.time is None else self.time[name]
+            columns = [super(Table, self).__getitem__(each)[name] for each in self.names]
+            time = self.time[name] if self._of_frames else None
             return Table(self.title, self.names, self.units, columns, time=time, in_degrees=self._in_degrees)
         if isinstance(name, list):
-            return self.select([each for each in name if each != "time"])
-        if name in self._columns:
-            return self._columns[name]
-        if name == "time" and self.time is not None:
-            return self.time
-        raise KeyError(f"found {name!r}; expected one of {', '.join(self.names)}")
+            return self.select([each for each in name if each != "time" or not self._of_frames])
+        return super().__getitem__(name)
 
-    def keys(self) -> list[str]:
-        """Return the names of all columns, beginning with ``time`` if the rows are frames."""
-        return [name for name, _, _ in self._with_time()]
+    def __missing__(self, name: str) -> NoReturn:
+        """Refuse a name that the table does not have."""
+        raise KeyError(f"found {name!r}; expected one of {', '.join(self)}")
 
-    def items(self) -> list[tuple[str, Any]]:
-        """Return names and columns, beginning with the time."""
-        return [(name, column) for name, _, column in self._with_time()]
+    def _refuse(self, *_args: Any, **_named: Any) -> NoReturn:
+        """Refuse a change."""
+        raise TypeError("a table of results cannot be changed; change a copy: dict(table), table.to_pandas()")
 
-    def to_numpy(self) -> np.ndarray:
-        """Return all numbers, without the time: `values`.
+    __setitem__ = __delitem__ = __ior__ = update = pop = popitem = setdefault = clear = _refuse
+    # Tables are compared as objects, not column by column.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__  # type: ignore[assignment]
+
+    def to_numpy(self) -> NDArray[np.float64]:
+        """Return all numbers, without the time and columns of text.
 
         Returns
         -------
         numpy.ndarray
+            Shape (rows, columns), float64, read-only, in Fortran order: columns are contiguous.
         """
-        return self.values
+        if self._numbers is None:
+            import numpy as np
 
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+            columns = [column for name in self.names if (column := self[name]).dtype.kind in "fi"]
+            self._numbers = np.asfortranarray(np.column_stack(columns), dtype=np.float64) if columns else np.empty((len(self), 0))
+            self._numbers.flags.writeable = False
+        return self._numbers
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         """Return all numbers as an array."""
         import numpy as np
 
-        return np.array(self.values, dtype=dtype) if copy or dtype is not None else self.values
+        return np.array(self.to_numpy(), dtype=dtype) if copy or dtype is not None else self.to_numpy()
 
     def __repr__(self) -> str:
         """Describe the table in one line."""
-        rate = "" if self.rate is None else f", {self.rate:g} Hz"
+        rate = f", {self.rate:g} Hz" if self._of_frames and len(self) > 1 else ""
         return f"<Table {self.title!r}: {len(self)} rows, {len(self.names)} columns{rate}>"
 
     def _repr_html_(self) -> str:
@@ -191,7 +182,8 @@ class Table:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the columns."""
-        state = (self.title, self.names, self.units, list(self._columns.values()), self.time, self._in_degrees)
+        time = self.time if self._of_frames else None
+        state = (self.title, self.names, self.units, [self[name] for name in self.names], time, self._in_degrees)
         return _unpickled, state
 
     def select(self, names: Sequence[str]) -> Table:
@@ -209,21 +201,24 @@ class Table:
         units = dict(zip(self.names, self.units, strict=True))
         columns = [self[name] for name in names]
         chosen = [units[name] for name in names]
-        return Table(self.title, names, chosen, columns, time=self.time, in_degrees=self._in_degrees)
+        time = self.time if self._of_frames else None
+        return Table(self.title, names, chosen, columns, time=time, in_degrees=self._in_degrees)
 
     def unit(self, name: str) -> str:
         """Return the unit of a column; empty if it has none."""
         return dict(zip(self.names, self.units, strict=True))[name]
 
-    def _with_time(self) -> Iterator[tuple[str, str, Any]]:
+    def _with_time(self) -> Iterator[tuple[str, str, NDArray[Any]]]:
         """Iterate over name, unit and values of all columns, beginning with the time."""
-        if self.time is not None:
+        if self._of_frames:
             yield "time", "s", self.time
-        yield from zip(self.names, self.units, self._columns.values(), strict=True)
+        for name, unit in zip(self.names, self.units, strict=True):
+            yield name, unit, self[name]
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         """Export the columns as a stream of Arrow arrays (PyCapsule interface)."""
-        return _ambulo.arrow_stream(list(self._with_time()))
+        columns = self._with_time()
+        return _ambulo.arrow_stream([(name, unit, _plain(column)) for name, unit, column in columns])
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return a pandas data frame; ``frame.attrs["units"]`` has the units by column.
@@ -235,8 +230,8 @@ class Table:
         """
         import pandas
 
-        frame = pandas.DataFrame({name: column for name, _, column in self._with_time()})
-        frame.attrs.update(title=self.title, rate=self.rate, units={name: unit for name, unit, _ in self._with_time()})
+        frame = pandas.DataFrame(self)
+        frame.attrs.update(title=self.title, units={name: unit for name, unit, _ in self._with_time()})
         return frame
 
     def to_polars(self) -> polars.DataFrame:
@@ -249,7 +244,19 @@ class Table:
         """
         import polars
 
-        return polars.DataFrame({name: column for name, _, column in self._with_time()})
+        return polars.DataFrame(self)
+
+    def to_pyarrow(self) -> pyarrow.Table:
+        """Return a table of pyarrow; the metadata of each field have its ``unit``.
+
+        Returns
+        -------
+        pyarrow.Table
+            One column per column of the table, beginning with ``time``.
+        """
+        import pyarrow
+
+        return pyarrow.RecordBatchReader.from_stream(self).read_all()
 
     def to_xarray(self) -> xarray.Dataset:
         """Return an xarray dataset: one variable per column with the attribute ``units``, over ``time`` or ``row``.
@@ -260,12 +267,12 @@ class Table:
         """
         import xarray
 
-        dimension = "row" if self.time is None else "time"
+        dimension = "time" if self._of_frames else "row"
         variables = {
-            name: ((dimension,), column, {"units": unit})
-            for name, unit, column in zip(self.names, self.units, self._columns.values(), strict=True)
+            name: ((dimension,), self[name], {"units": unit})
+            for name, unit in zip(self.names, self.units, strict=True)
         }
-        coordinates = {} if self.time is None else {"time": ("time", self.time, {"units": "s"})}
+        coordinates = {"time": ("time", self.time, {"units": "s"})} if self._of_frames else {}
         return xarray.Dataset(variables, coordinates, {"title": self.title})
 
     def to_opensim(self, path: str | os.PathLike[str]) -> None:
@@ -288,13 +295,32 @@ class Table:
         """Return the content of an OpenSim storage file."""
         import numpy as np
 
-        from ambulo._errors import InputError
-
         columns = [column for _, _, column in self._with_time()]
-        if self.time is None or any(isinstance(column, list) for column in columns):
+        if not self._of_frames or any(column.dtype.kind not in "fi" for column in columns):
             raise InputError(f"the table {self.title!r} has no time or has text; expected numbers at instants of time")
         names = ["time", *self.names]
         return _ambulo.write_table(self.title, self._in_degrees, names, np.column_stack(columns))
+
+
+def _plain(column: NDArray[Any]) -> NDArray[Any] | list[str]:
+    """Return a column as the compiled module takes it."""
+    if column.dtype.kind == "U":
+        return [str(text) for text in column]
+    return column.astype("int64") if column.dtype.kind == "i" else column
+
+
+def _column(name: str, cells: list[str]) -> NDArray[Any]:
+    """Return the column of these cells: numbers, or texts if one is no number."""
+    import numpy as np
+
+    column: NDArray[Any]
+    try:
+        whole = name in _COUNTS and all(cell.isdecimal() for cell in cells)
+        column = np.array([int(cell) for cell in cells] if whole else [float(cell) if cell else np.nan for cell in cells])
+    except ValueError:
+        column = np.array(cells)
+    column.flags.writeable = False
+    return column
 
 
 def _unpickled(

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ambulo import _ambulo
-from ambulo._inputs import listed
-from ambulo._recording import Recording
+from ambulo._inputs import listed, on_disk
 from ambulo._result import Result
 
 if TYPE_CHECKING:
-    _Path = str | os.PathLike[str]
+    from ambulo._ambulo import Model
+    from ambulo._options import Path as _Path
+    from ambulo._options import Recorded, What
 
 
 def _run(verb: str, files: Sequence[Any], options: dict[str, Any], *, as_json: bool) -> Any:
@@ -34,20 +34,6 @@ def _run(verb: str, files: Sequence[Any], options: dict[str, Any], *, as_json: b
     import json
 
     return json.loads(text)
-
-
-@contextmanager
-def _on_disk(value: Recording | _Path) -> Iterator[Path]:
-    """Yield the path of an input; a recording in memory is written to a file for this time."""
-    if not isinstance(value, Recording):
-        yield Path(value)
-        return
-    import tempfile
-
-    with tempfile.TemporaryDirectory(prefix="ambulo-") as folder:
-        path = Path(folder) / Path(value.name).name
-        value.save(path)
-        yield path
 
 
 def demo(output: _Path, *, keep: Sequence[str] | str | None = None, force: bool = False) -> Result:
@@ -80,12 +66,12 @@ def demo(output: _Path, *, keep: Sequence[str] | str | None = None, force: bool 
     return Result(_ambulo.open(output))
 
 
-def info(path: Recording | _Path, *, markers: _Path | None = None, force: bool = False) -> dict[str, Any]:
+def info(path: Recorded | Model, *, markers: _Path | None = None, force: bool = False) -> dict[str, Any]:
     """Describe a file: kind, length, rate, markers with their meaning, force plates, the body of a model.
 
     Parameters
     ----------
-    path : Recording, str or path-like
+    path : Recording, Table, Model, data frame, open file, str or path-like
         A recording, a table or a model.
     markers : str or path-like, optional
         Also write the markers and their meaning as a marker set (``.toml``).
@@ -108,16 +94,16 @@ def info(path: Recording | _Path, *, markers: _Path | None = None, force: bool =
     -----
     Names of markers: docs/MARKERS.md.
     """
-    with _on_disk(path) as file:
+    with on_disk(path, "file") as file:
         return dict(_run("info", [file], {"markers": markers, "force": force}, as_json=True))
 
 
-def events(recording: Recording | _Path, *, output: _Path | None = None, force: bool = False) -> dict[str, Any]:
+def events(recording: Recorded, *, output: _Path | None = None, force: bool = False) -> dict[str, Any]:
     """Find foot strikes and foot offs by every source that a recording has, and compare them.
 
     Parameters
     ----------
-    recording : Recording, str or path-like
+    recording : Recording, Table, data frame, open file, str or path-like
         The recording.
     output : str or path-like, optional
         Also write the events to a ``.csv``.
@@ -140,15 +126,15 @@ def events(recording: Recording | _Path, *, output: _Path | None = None, force: 
     -----
     The events that a computation uses are `Result.events`. Definitions: docs/GROUND_FORCES.md.
     """
-    with _on_disk(recording) as file:
+    with on_disk(recording, "recording") as file:
         return dict(_run("events", [file], {"output": output, "force": force}, as_json=True))
 
 
 def convert(
-    source: Recording | Result | _Path,
+    source: Recorded | Result,
     output: _Path,
     *,
-    what: str | None = None,
+    what: What | None = None,
     world: bool = False,
     model: _Path | None = None,
     rig: _Path | None = None,
@@ -158,7 +144,7 @@ def convert(
 
     Parameters
     ----------
-    source : Recording, Result, str or path-like
+    source : Recording, Result, Table, data frame, open file, str or path-like
         A recording, or a result or its folder.
     output : str or path-like
         The file: ``.trc``, ``.csv``, ``.mot``, ``.sto``, ``.c3d``, ``.bvh``, ``.glb``.
@@ -197,14 +183,14 @@ def convert(
             source.save(folder)
             _run("convert", [folder, output], options, as_json=False)
     else:
-        with _on_disk(source) as file:
+        with on_disk(source, "source") as file:
             _run("convert", [file, output], options, as_json=False)
     return Path(output)
 
 
 def compare(
-    a: Recording | _Path,
-    b: Recording | _Path,
+    a: Recorded,
+    b: Recorded,
     *,
     limit: float | None = None,
     columns: Sequence[str] | str | None = None,
@@ -215,9 +201,9 @@ def compare(
 
     Parameters
     ----------
-    a : Recording, str or path-like
+    a : Recording, Table, data frame, open file, str or path-like
         A table: ``.mot``, ``.sto`` or ``.csv``.
-    b : Recording, str or path-like
+    b : Recording, Table, data frame, open file, str or path-like
         The reference.
     limit : float, optional
         Largest allowed root mean square difference of a column, in its unit.
@@ -243,7 +229,7 @@ def compare(
     A difference above `limit` is no error; it is in the returned list. Columns: docs/OUTPUTS.md.
     """
     options = {"limit": limit, "columns": listed(columns), "from": start, "to": end}
-    with _on_disk(a) as first, _on_disk(b) as second:
+    with on_disk(a, "a") as first, on_disk(b, "b") as second:
         return list(_run("compare", [first, second], options, as_json=True))
 
 
@@ -359,7 +345,7 @@ def reproduce(
 
     Notes
     -----
-    Takes about 24 s. After Ctrl-C the computation ends in the background. Claims: docs/PAPER.md.
+    Takes about 24 s. Ctrl-C raises `KeyboardInterrupt`; the computation ends after its present walk, and nothing is written. Claims: docs/PAPER.md.
     """
     options = {"output": output, "keep": listed(keep), "brief": brief, "setting": setting, "force": force}
     _run("reproduce", [], options, as_json=False)
@@ -419,7 +405,7 @@ def tune(
 
     Notes
     -----
-    After Ctrl-C the computation ends in the background; `resume` continues it. Method: docs/SIMULATION.md.
+    Ctrl-C raises `KeyboardInterrupt`; the search ends after its present candidates, and `resume` continues it. Method: docs/SIMULATION.md.
     """
     options = {
         "output": output,

@@ -6,11 +6,14 @@
 //! | `frames/part-SSS-PPPPP.parquet`, `cycles/`, `events/` | tables of part P of shard S; none in `frames/` if no trial of the part has results |
 //! | `trials/part-SSS-PPPPP.parquet` | the trials of the part; it appears last and closes the part |
 //! | `summary.html` | the page of the batch, made from the tables of trials when all parts of all shards are closed |
+//! | `README.md` | the card of the data, written last; while it is there, all files of a table have the same columns |
 //!
 //! Each file is first written under another name and flushed to the disk, and then renamed. After a kill at any moment
 //! each part is either closed or open, and the files of an open part are written again. A lock keeps two runs of one
 //! shard apart.
 
+use super::columns::unify;
+use super::part_file::{read, removed, written};
 use super::tables::PartTables;
 use crate::args::Shard;
 use crate::folder_lock::FolderLock;
@@ -28,6 +31,8 @@ const FRAMES: &str = "frames";
 const TRIALS: &str = "trials";
 /// Tables of frames that every trial with results has; others are of some trials only.
 const OF_EVERY_TRIAL: [&str; 2] = ["kinematics", "moments"];
+/// The card of the data.
+const CARD: &str = "README.md";
 /// Folder of the locks of the shards.
 const LOCKS: &str = ".shards";
 
@@ -156,20 +161,36 @@ impl Ledger {
     /// The tables of trials of all shards, if all their parts are closed. `trials` is the number of trials of the
     /// batch.
     pub(super) fn complete(&self, trials: usize, part: usize) -> Result<Option<Vec<ParquetTable>>> {
-        let Shard { count, .. } = self.shard;
-        let parts = |shard: usize| trials.saturating_sub(shard).div_ceil(count).div_ceil(part);
-        let places: Vec<PathBuf> = (0..count)
-            .flat_map(|shard| (0..parts(shard)).map(move |number| (shard, number)))
-            .map(|(shard, number)| self.place_of(shard, TRIALS, number))
-            .collect();
-        if !places.iter().all(|place| place.is_file()) {
+        let trials_of = self.places(TRIALS, trials, part);
+        if !trials_of.iter().all(|place| place.is_file()) {
             return Ok(None);
         }
-        let read = |place: &PathBuf| {
-            let shown = || place.display().to_string();
-            ParquetTable::read(&fs::read(place).with_context(shown)?).with_context(shown)
+        // Of several shards that end at once one completes the folder.
+        let Some(_lock) = FolderLock::take(&self.folder.join(LOCKS).join("complete"))? else {
+            return Ok(None);
         };
-        places.iter().map(read).collect::<Result<_>>().map(Some)
+        if !self.folder.join(CARD).is_file() {
+            unify(&self.places(FRAMES, trials, part))?;
+        }
+        trials_of.iter().map(|place| read(place)).collect::<Result<_>>().map(Some)
+    }
+
+    /// The first table of frames of a complete batch; `None` if no part has one.
+    pub(super) fn first_frames(&self, trials: usize, part: usize) -> Result<Option<ParquetTable>> {
+        self.places(FRAMES, trials, part).iter().find(|place| place.is_file()).map(|place| read(place)).transpose()
+    }
+
+    /// Writes the card of the data, the last file of a complete batch.
+    pub(super) fn write_card(&self, text: &str) -> Result<()> {
+        let path = self.folder.join(CARD);
+        written(&path, text.as_bytes()).with_context(|| format!("{}: cannot be written", path.display()))
+    }
+
+    /// The files of a table in the order of shards and parts.
+    fn places(&self, table: &str, trials: usize, part: usize) -> Vec<PathBuf> {
+        let Shard { count, .. } = self.shard;
+        let parts = |shard: usize| trials.saturating_sub(shard).div_ceil(count).div_ceil(part);
+        (0..count).flat_map(|shard| (0..parts(shard)).map(move |k| self.place_of(shard, table, k))).collect()
     }
 
     fn first_closed(&self) -> Result<Option<String>> {
@@ -237,6 +258,8 @@ impl Ledger {
     /// and polars do not read together with the others; so such a part has no file.
     pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
         let PartTables { trials, frames, cycles, events } = tables;
+        let card = self.folder.join(CARD);
+        removed(&card).with_context(|| format!("{}: cannot be removed", card.display()))?;
         for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {
             let path = self.place(name, part);
             let put = match name == FRAMES && frames.rows() == 0 {
@@ -251,22 +274,6 @@ impl Ledger {
             })?;
         }
         Ok(())
-    }
-}
-
-/// Writes a file that appears when it is complete.
-fn written(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let new = path.with_extension("parquet.new");
-    write_through(&new, content).and_then(|()| fs::rename(&new, path)).inspect_err(|_| {
-        let _ = fs::remove_file(&new);
-    })
-}
-
-/// Removes what an interrupted run left.
-fn removed(path: &Path) -> std::io::Result<()> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
     }
 }
 

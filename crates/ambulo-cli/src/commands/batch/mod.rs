@@ -1,7 +1,10 @@
 //! `ambulo batch`: all recordings of a folder or a list, computed into Parquet tables.
 
+mod card;
+mod columns;
 mod ledger;
 mod page;
+mod part_file;
 mod tables;
 mod trial;
 
@@ -23,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tables::{Row, part_tables};
-use trial::{Key, Work};
+use trial::{Key, Limits, Work};
 
 /// Variables that schedulers of clusters set in their jobs.
 const SCHEDULERS: [&str; 4] = ["SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "SGE_TASK_ID"];
@@ -41,7 +44,8 @@ pub(crate) fn compute(args: &BatchArgs, of_trials: &TrialWords, caller: &Caller)
     let threads = args.jobs.map_or_else(|| if in_job { 1 } else { processors() }, |jobs| jobs as usize);
     let (root, mut plan) = planned(args, threads)?;
     let (options, keep, caller) = (of_trials.clone(), args.keep.clone(), caller.clone());
-    let work = Work { root, options, keep, caller, ..Work::default() };
+    let limits = Limits { time_s: args.time_limit, size_mb: args.size_limit };
+    let work = Work { root, options, keep, caller, limits, ..Work::default() };
     if plan.trials.is_empty() {
         bail!("{}", nothing_found(args, &plan));
     }
@@ -53,8 +57,8 @@ pub(crate) fn compute(args: &BatchArgs, of_trials: &TrialWords, caller: &Caller)
         printer::batch_plan(&trials, &plan.others, args.print)?;
         return Ok(Completion::Passed);
     }
-    let ledger =
-        Ledger::open(&args.output, args.shard, &description(args, of_trials, &plan.trials[..all]), args.resume)?;
+    let description = description(args, of_trials, &plan.trials[..all]);
+    let ledger = Ledger::open(&args.output, args.shard, &description, args.resume)?;
     let batch = Batch {
         args,
         work: &work,
@@ -70,6 +74,8 @@ pub(crate) fn compute(args: &BatchArgs, of_trials: &TrialWords, caller: &Caller)
     }
     if let Some(tables) = ledger.complete(all, args.part as usize)? {
         page::write(args, of_trials, &plan.trials, &tables)?;
+        let frames = ledger.first_frames(all, args.part as usize)?;
+        ledger.write_card(&card::text(&description, &tables, frames.as_ref()))?;
     }
     let counts = BatchCounts::of(&rows);
     if counts.computed == 0 && !rows.is_empty() {

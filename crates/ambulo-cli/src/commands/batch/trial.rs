@@ -7,7 +7,7 @@ use crate::commands::trials::sentence;
 use crate::printer;
 use crate::record::{hash, hash_of_file};
 use ambulo::analysis::Analysis;
-use ambulo::job::trials::{PlannedTrial, relative};
+use ambulo::job::trials::{PlannedTrial, TrialFiles, relative};
 use ambulo::job::{Shared, bids_files_beside};
 use ambulo::model::Model;
 use ambulo::motion::Event;
@@ -16,15 +16,25 @@ use ambulo_results::{
     CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, Keep, TIMES_AND_DISTANCES, columns_of_predictions, cycle_rows,
     unit_of,
 };
-use anyhow::{Context, Error, Result};
+use anyhow::{Context, Error, Result, anyhow, bail};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Tables whose columns have names of another table, and the prefix of these columns.
 const PREFIXES: [(&str, &str); 2] = [(GROUND_MEASURED, "measured_"), (CLINICAL, "clinical_")];
+
+/// What a trial may take; a trial that takes more is a row with its error.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Limits {
+    /// Time until the stage after which the trial ends [s].
+    pub(super) time_s: Option<f64>,
+    /// Size of all files of the trial together [MB].
+    pub(super) size_mb: Option<f64>,
+}
 
 /// The work that a batch does on every trial.
 #[derive(Debug, Default)]
@@ -37,6 +47,8 @@ pub(super) struct Work {
     pub(super) keep: Vec<String>,
     /// Who may stop the computation.
     pub(super) caller: Caller,
+    /// What a trial may take.
+    pub(super) limits: Limits,
     /// Data that trials share.
     pub(super) shared: Shared,
     /// SHA-256 of files that several trials may have.
@@ -120,7 +132,7 @@ impl Work {
     pub(super) fn compute(&self, trial: &PlannedTrial) -> Result<Computed, String> {
         let computed = match &trial.broken {
             Some(reason) => Err(Error::msg(reason.clone())),
-            None => self.computed(trial),
+            None => self.limited(trial),
         };
         computed.map_err(|error| {
             let (message, hint) = printer::error_parts(&error);
@@ -128,9 +140,28 @@ impl Work {
         })
     }
 
-    fn computed(&self, trial: &PlannedTrial) -> Result<Computed> {
+    /// Computes a trial within the limits.
+    fn limited(&self, trial: &PlannedTrial) -> Result<Computed> {
+        let Limits { time_s, size_mb } = self.limits;
+        let found_mb = size_mb.map_or(0.0, |_| megabytes(&trial.files));
+        if let Some(limit) = size_mb.filter(|limit| found_mb > *limit) {
+            bail!("the files have {found_mb:.1} MB; expected at most {limit} MB. hint: raise the limit of size");
+        }
+        // A time that no clock can count is no limit.
+        let end = |seconds: f64| Instant::now().checked_add(Duration::try_from_secs_f64(seconds).ok()?);
+        let caller = Caller { deadline: time_s.and_then(end), ..self.caller.clone() };
+        self.computed(trial, &caller).map_err(|error| match time_s {
+            Some(limit) if caller.is_stopped() && !self.caller.is_stopped() => anyhow!(
+                "it took longer than the limit of {limit} s. hint: raise the limit of time, or choose a shorter time \
+                 range"
+            ),
+            _ => error,
+        })
+    }
+
+    fn computed(&self, trial: &PlannedTrial, caller: &Caller) -> Result<Computed> {
         let TrialWords { job, outputs, .. } = &self.options;
-        let run = forces::compute_with(&trial.files.job(job), outputs.clone(), &self.caller, &self.shared)?;
+        let run = forces::compute_with(&trial.files.job(job), outputs.clone(), caller, &self.shared)?;
         let keep = Keep::of_names(&self.keep);
         let (files, mut summary) = run.tables_for(&keep)?;
         let Analysis { events, .. } = &run.outcome.analysis;
@@ -153,6 +184,14 @@ impl Work {
             events: if keep.includes(EVENTS) { events.clone() } else { Vec::new() },
         })
     }
+}
+
+/// Size of all files of a trial. Of a `.b3d` only the trial is read, so it does not count.
+fn megabytes(files: &TrialFiles) -> f64 {
+    let recording = files.trial.is_none().then_some(&files.recording);
+    let others = [&files.standing, &files.functional, &files.model, &files.grf, &files.loads];
+    let all = recording.into_iter().chain(others.into_iter().flatten());
+    all.filter_map(|path| Some(path.metadata().ok()?.len())).sum::<u64>() as f64 / 1e6
 }
 
 /// Adds the columns of tables that a run writes only if forces were predicted, or predicted and measured, so that all
