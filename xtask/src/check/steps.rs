@@ -82,8 +82,8 @@ const COMPILED: [Step; 6] = [
     Step {
         name: "lints",
         tool: Tool::CargoForWasm,
-        // For the browser's target, so that one pass shows too that the libraries compile where `usize` has 32 bits. The
-        // members that are left out, and all test programs, were linted as they were compiled.
+        // For the browser's target, so that one pass also shows that the libraries compile where `usize` has 32 bits.
+        // The members that are left out, and all test programs, were linted as they were compiled.
         arguments: &[
             "clippy",
             "--workspace",
