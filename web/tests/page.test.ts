@@ -239,8 +239,9 @@ test("several walks of one person give the page of the session, also from a drop
   const folder = join(demo, "visit-1");
   mkdirSync(join(folder, "more"), { recursive: true });
   const names = ["first.c3d", "more/second.c3d"];
-  for (const name of names) {
-    writeFileSync(join(folder, name), readFileSync(join(demo, "walk.c3d")));
+  for (const [index, name] of names.entries()) {
+    // Equal files would be one trial, so the second one ends with an empty block.
+    writeFileSync(join(folder, name), Buffer.concat([readFileSync(join(demo, "walk.c3d")), Buffer.alloc(512 * index)]));
   }
   writeFileSync(join(folder, "standing.c3d"), readFileSync(join(demo, "standing.c3d")));
   writeFileSync(join(folder, "film.mp4"), "no recording");
