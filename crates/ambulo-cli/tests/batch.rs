@@ -160,6 +160,10 @@ fn shards_compute_every_trial_once() {
     bench
         .run(&[&BATCH[..], &["out", "--shard", "1/3"]].concat())
         .refused(&["another batch", "shards: found 2, expected 3"]);
+    for wrong in ["0", "nan", "inf", "x"] {
+        bench.run(&["batch", "set", &format!("--time-limit={wrong}")]).refused(&["a number of seconds above 0"]);
+        bench.run(&["batch", "set", &format!("--size-limit={wrong}")]).refused(&["a number of megabytes above 0"]);
+    }
     for wrong in ["2/2", "-1/2", "1", "0/0", "a/b"] {
         bench.run(&["batch", "set", "--shard", wrong]).refused(&["I/N", "0/4"]);
     }

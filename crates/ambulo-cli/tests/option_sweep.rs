@@ -227,7 +227,8 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     }
     // A verb with its first numeric option needs a sweep below; numbers of `tune` are tried in tune.rs, because an
     // accepted one takes seconds, those of `calibrate` are some of `forces`, those of `validate` too, apart from the
-    // number of threads (validate.rs); those of `batch` and `session` are counts (batch.rs, session.rs).
+    // number of threads (validate.rs); those of `batch` and `session` are counts and limits (batch.rs,
+    // session.rs).
     let command = command_line();
     let verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let swept: Vec<&str> = verbs.into_iter().filter(|verb| !names(verb).is_empty()).collect();
@@ -249,7 +250,7 @@ fn the_options_of_the_sweep_are_the_numeric_ones() {
     );
     assert!(names("calibrate").iter().all(|name| names("forces").contains(name)));
     assert_eq!(names("validate"), ["mass", "height", "jobs"]);
-    assert_eq!(names("batch"), ["jobs", "shard", "part", "limit"]);
+    assert_eq!(names("batch"), ["jobs", "shard", "part", "limit", "time-limit", "size-limit"]);
     assert_eq!(names("session"), ["jobs"]);
 }
 
