@@ -106,7 +106,7 @@ def calls(files, bad, result):
     yield lambda: ambulo.report(bad / "nowhere")
     yield lambda: ambulo.report(bad / "empty", compare=[bad / "empty"] * 3)
     yield lambda: ambulo.view(bad / "empty")
-    yield lambda: ambulo.reproduce(bad / "full")
+    yield lambda: ambulo.reproduce(bad / "text.c3d", brief=True)
     yield lambda: ambulo.reproduce(bad / "paper", setting="nothing")
     yield lambda: ambulo.tune(bad / "words.toml", bad / "gains.toml")
     yield lambda: ambulo.tune(REPOSITORY / "examples/pendulum.toml", bad / "gains.toml")
