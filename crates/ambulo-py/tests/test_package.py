@@ -178,14 +178,24 @@ LEFT_BEHIND = {
 @pytest.mark.parametrize("call", LEFT_BEHIND.values(), ids=LEFT_BEHIND.keys())
 def test_ctrl_c_stops_the_work_and_not_only_the_wait(call, tmp_path):
     code = f"""
-import os, pathlib, time, ambulo
+import os, pathlib, threading, time, ambulo
 SCENE, FOLDER = {str(REPOSITORY / "examples/pushed-walker.toml")!r}, pathlib.Path({str(tmp_path)!r})
 
 def working():
-    names = [task / "comm" for task in pathlib.Path("/proc/self/task").iterdir()]
-    return any(name.read_text().startswith("ambulo") for name in names if name.is_file())
+    for task in pathlib.Path("/proc/self/task").iterdir():
+        try:
+            if (task / "comm").read_text().startswith("ambulo"):
+                return True
+        except OSError:  # The thread has ended.
+            pass
+    return False
 
-print("begins", flush=True)
+def report():
+    while not working():
+        time.sleep(0.01)
+    print("works", flush=True)
+
+threading.Thread(target=report).start()
 try:
     {call}
 except KeyboardInterrupt:
@@ -195,8 +205,7 @@ except KeyboardInterrupt:
 os._exit(0)
 """
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as program:
-        assert program.stdout.readline() == "begins\n"
-        time.sleep(1)
+        assert program.stdout.readline() == "works\n"
         program.send_signal(signal.SIGINT)
         # The thread of the computation ends by itself. A search of this length would go on for hours.
         assert program.stdout.read() == "ended\n"
