@@ -109,6 +109,22 @@ test("keys rotate and zoom the focused picture", async () => {
   });
 });
 
+test("a slider goes from the recorded motion to the corrected one", async () => {
+  await withPage("consistent", async ({ page }) => {
+    const slider = page.getByRole("slider", { name: /as recorded/ });
+    const prints = [(await picture(page)).print];
+    for (const value of ["0.5", "0", "1"]) {
+      await slider.fill(value);
+      prints.push((await picture(page)).print);
+    }
+    assert.equal(new Set(prints).size, 3, "corrected, between, recorded");
+    assert.equal(prints[3], prints[0]);
+  });
+  await withPage("demo", async ({ page }) => {
+    assert.equal(await page.getByRole("slider", { name: /as recorded/ }).count(), 0, "a motion that was not changed");
+  });
+});
+
 test("the reader can choose the parts shown with the figure", async () => {
   await withPage("compared", async ({ page }) => {
     const prints = new Set([(await picture(page)).print]);

@@ -103,6 +103,7 @@ export function makePages(folder) {
   const person = ["--mass", "75", "--height", "1.75"];
   const standing = ["--static", join(input, "standing.c3d")];
   ambulo("forces", join(input, "walk.c3d"), ...standing, ...person, "--muscles", "-o", at("muscles"));
+  ambulo("forces", join(input, "walk.c3d"), ...standing, ...person, "--consistent", "-o", at("consistent"));
   ambulo("session", input, "-o", at("session"), "--", ...person);
   ambulo("simulate", join(repository, "examples/stumble.toml"), "-o", at("scene"));
   cpSync(at("demo"), at("compared"), { recursive: true });

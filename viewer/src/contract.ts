@@ -619,6 +619,10 @@ side: PageSide | null,
  */
 shapes: Array<ViewShape>, 
 /**
+ * Its path in the recorded motion, if the motion was changed.
+ */
+recorded?: ViewPath, 
+/**
  * Origin of the body in the world [m]: x, y, z.
  */
 position: [Series, Series, Series], 
@@ -754,6 +758,16 @@ points: Array<ViewPathPoint>,
  * Its activation, 0 to 1.
  */
 activation: Series, };
+
+export type ViewPath = { 
+/**
+ * Origin of the body in the world [m]: x, y, z.
+ */
+position: [Series, Series, Series], 
+/**
+ * Orientation, world from body: x, y, z, w of a unit quaternion without jumps of sign.
+ */
+rotation: [Series, Series, Series, Series], };
 
 export type ViewPathPoint = { 
 /**

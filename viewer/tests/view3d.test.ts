@@ -73,6 +73,25 @@ test("poses are interpolated along great arcs and missing in gaps", () => {
   assert.equal(motion.at(1.5, place, turn), false);
 });
 
+test("a pose between the recorded and the corrected motion is nearer to neither than asked for", () => {
+  const numbers = new SampleNumbers();
+  const half = Math.SQRT1_2;
+  const of = (value: number) => numbers.add([value, value]);
+  const pose = (x: number, z: number, w: number) => ({
+    position: [of(x), of(0), of(0)] as ViewBody["position"],
+    rotation: [of(0), of(0), of(z), of(w)] as ViewBody["rotation"],
+  });
+  const changed = { name: "b", side: null, shapes: [], ...pose(4, half, half), recorded: pose(0, 0, 1) };
+  const motion = new Motion(changed, numbers);
+  const place = new Vector3();
+  const turn = new Quaternion();
+  for (const corrected of [1, 0.25, 0]) {
+    assert.equal(motion.at(0.5, place, turn, corrected), true);
+    close(place.x, 4 * corrected, 1e-3);
+    close(2 * Math.atan2(turn.z, turn.w), (corrected * Math.PI) / 2, 1e-3);
+  }
+});
+
 test("at the same phase, foot strikes of the same foot coincide", () => {
   const main = gait(0, 4, [0.5, 1.5, 2.5]);
   const slow = gait(0, 9, [1, 3, 5, 7]);

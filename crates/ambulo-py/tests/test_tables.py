@@ -19,6 +19,7 @@ STORAGE = {
     "powers": "powers.sto",
     "reactions": "reactions.sto",
     "grf": "grf.mot",
+    "foot_contact": "foot_contact.sto",
 }
 CSV = {"cycles": "cycles.csv", "events": "events.csv", "stances": "stances.csv", "times_and_distances": "times_and_distances.csv"}
 

@@ -30,6 +30,7 @@ fn stage() -> Stage {
         side,
         shapes: vec![ViewShape::Capsule { from: [0.0; 3], to: [0.0, -0.4, 0.0], radius: 0.05 }],
         path,
+        recorded: None,
     };
     let gap = Vec3::repeat(f64::NAN);
     let force = |frame: usize| if (4..8).contains(&frame) { Vec3::new(100.0, 700.0, -20.0) } else { gap };

@@ -2,6 +2,8 @@
 
 /// Coordinates of a motion.
 pub const KINEMATICS: &str = "kinematics.mot";
+/// Coordinates of the recorded motion, where it was changed.
+pub const KINEMATICS_RECORDED: &str = "kinematics_recorded.mot";
 /// Generalised forces.
 pub const MOMENTS: &str = "moments.sto";
 /// Generalised forces without the forces of a worn device.
@@ -28,6 +30,8 @@ pub const EXTERNAL_LOADS: &str = "external_loads.xml";
 pub const EVENTS: &str = "events.csv";
 /// Stances with the source of their loads.
 pub const STANCES: &str = "stances.csv";
+/// Ends of the soles that touch the ground.
+pub const FOOT_CONTACT: &str = "foot_contact.sto";
 /// Curves over gait cycles.
 pub const CYCLES: &str = "cycles.csv";
 /// Clinical curves.

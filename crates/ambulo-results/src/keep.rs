@@ -19,7 +19,7 @@ pub struct Keep(Option<Vec<String>>);
 
 impl Keep {
     /// The names for the run of a recording or a synthetic walk; only `ambulo demo` has the last.
-    pub const OF_RUNS: [&'static str; 24] = [
+    pub const OF_RUNS: [&'static str; 26] = [
         "report",
         "figures",
         "tables",
@@ -27,6 +27,7 @@ impl Keep {
         "summary",
         "timings",
         "kinematics",
+        "kinematics_recorded",
         "moments",
         "moments_biological",
         "powers",
@@ -39,6 +40,7 @@ impl Keep {
         "grf_measured",
         "events",
         "stances",
+        "foot_contact",
         "cycles",
         "clinical",
         "times_and_distances",

@@ -3,9 +3,10 @@
 use crate::files::{Computed, OutputFile, files_of};
 use crate::muscle_tables::muscle_files;
 use crate::prediction_files::prediction_files;
-use crate::tables::stances_csv;
+use crate::tables::{self, stances_csv};
 use crate::walking_summary::WalkingSummary;
-use crate::{Keep, STANCES, TIMES_AND_DISTANCES};
+use crate::{FOOT_CONTACT, KINEMATICS_RECORDED, Keep, STANCES, TIMES_AND_DISTANCES};
+use ambulo::analysis::foot_contact;
 use ambulo::study::{Outcome, PredictedGround};
 use ambulo_formats::Error;
 use std::sync::Arc;
@@ -23,6 +24,14 @@ pub fn outcome_tables<'a>(outcome: &'a Outcome, keep: &Keep) -> Result<Vec<Outpu
         muscles: outcome.muscles.as_ref(),
     };
     let mut files = files_of(&computed, &sources, keep)?;
+    if let Some(recorded) = outcome.analysis.recorded.as_ref().filter(|_| keep.includes(KINEMATICS_RECORDED)) {
+        let table = || tables::coordinates("Coordinates, as recorded", &outcome.body, &outcome.analysis, recorded);
+        files.push(OutputFile::storage_by(KINEMATICS_RECORDED, table));
+    }
+    if keep.includes(FOOT_CONTACT) && !outcome.stances.is_empty() {
+        let contact = foot_contact(&outcome.body, outcome.complete(), &outcome.person.soles);
+        files.push(OutputFile::storage_by(FOOT_CONTACT, move || tables::foot_contact(outcome.complete(), &contact)));
+    }
     if keep.includes(STANCES) && !outcome.stances.is_empty() {
         files.push(OutputFile::new(STANCES, stances_csv(&outcome.stances).into_bytes()));
     }

@@ -2,10 +2,11 @@
 
 use crate::GROUND;
 use crate::sound::is_sound;
-use ambulo::analysis::{Analysis, Event, EventKind};
+use ambulo::analysis::{Analysis, Event, EventKind, FootContact};
 use ambulo::dynamics::JointReaction;
 use ambulo::ground::stances::Stance;
 use ambulo::ground::{BodyForces, CENTER_OF_PRESSURE_LOAD_N, feet};
+use ambulo::kinematics::Trajectory;
 use ambulo::model::{BodyId, BySide, CoordinateKind, Model, Side};
 use ambulo::spatial::Vec3;
 use ambulo_formats::Error;
@@ -45,19 +46,45 @@ pub(crate) fn column<'a>(name: String, values: &'a [f64]) -> LazyColumn<'a> {
 
 /// `kinematics.mot`: the coordinates used for the analysis, rotations in degrees.
 pub(crate) fn kinematics<'a>(model: &'a Model, analysis: &'a Analysis) -> Result<TableRows<'a>, Error> {
+    let is_recorded = analysis.recorded.is_none();
+    let title = if is_recorded { "Coordinates" } else { "Coordinates, changed to agree with the forces" };
+    coordinates(title, model, analysis, &analysis.trajectory)
+}
+
+/// The coordinates of a motion on the frames of an analysis: `kinematics_recorded.mot` has the recorded one.
+pub(crate) fn coordinates<'a>(
+    title: &str,
+    model: &'a Model,
+    analysis: &Analysis,
+    trajectory: &'a Trajectory,
+) -> Result<TableRows<'a>, Error> {
     let columns = model.coordinate_ids().map(|id| -> LazyColumn<'a> {
         let coordinate = &model.coordinates()[id.index()];
-        let values = analysis.trajectory.values(id);
+        let values = trajectory.values(id);
         let shown: Box<dyn Fn(usize) -> f64 + 'a> = match coordinate.kind {
             CoordinateKind::Rotation => Box::new(move |i| values[i].to_degrees()),
             CoordinateKind::Translation | CoordinateKind::Coupled => Box::new(move |i| values[i]),
         };
         (coordinate.name.clone(), shown)
     });
-    let title = if analysis.adjusted { "Coordinates, changed to agree with the forces" } else { "Coordinates" };
     let mut table = rows(title, analysis, columns)?;
     table.in_degrees = Some(true);
     Ok(table)
+}
+
+/// `foot_contact.sto`: 1 in frames in which an end of a sole touches the ground, else 0.
+pub(crate) fn foot_contact(
+    analysis: &Analysis,
+    contact: &BySide<Vec<FootContact>>,
+) -> Result<TableRows<'static>, Error> {
+    let column = |side: Side, part: &str, touches: fn(&FootContact) -> bool| -> Column {
+        let values = contact[side].iter().map(|contact| f64::from(u8::from(touches(contact)))).collect();
+        (format!("{part}_{}_contact", side.letter()), values)
+    };
+    let of_side =
+        |side: Side| [column(side, "heel", |contact| contact.heel), column(side, "toes", |contact| contact.toes)];
+    let is_known = |side: &Side| !contact[*side].is_empty();
+    table("Foot contact", analysis, Side::BOTH.into_iter().filter(is_known).flat_map(of_side).collect())
 }
 
 /// `moments.sto`: generalised forces [N.m or N]. `device`, if given, is subtracted column by column.

@@ -1,6 +1,9 @@
 //! Units of the columns of tables (docs/OUTPUTS.md).
 
-use crate::{CLINICAL, GROUND, GROUND_MEASURED, GROUND_SD, KINEMATICS, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, REACTIONS};
+use crate::{
+    CLINICAL, FOOT_CONTACT, GROUND, GROUND_MEASURED, GROUND_SD, KINEMATICS, KINEMATICS_RECORDED, MOMENTS,
+    MOMENTS_BIOLOGICAL, POWERS, REACTIONS,
+};
 use ambulo::model::{CoordinateKind, Model};
 
 /// Whether a file is an OpenSim storage file; other tables are comma-separated values.
@@ -20,10 +23,11 @@ pub fn unit_of(file: &str, column: &str, model: Option<&Model>) -> &'static str 
         return "1";
     }
     match file {
-        KINEMATICS => model.map_or("", |model| unit_of_coordinate(column, model)),
+        KINEMATICS | KINEMATICS_RECORDED => model.map_or("", |model| unit_of_coordinate(column, model)),
         MOMENTS | MOMENTS_BIOLOGICAL if column.ends_with("_force") => "N",
         MOMENTS | MOMENTS_BIOLOGICAL => "N.m",
         POWERS => "W",
+        FOOT_CONTACT => "1",
         REACTIONS | GROUND | GROUND_SD | GROUND_MEASURED => unit_of_load(column),
         CLINICAL => unit_of_clinical(column),
         _ => "",

@@ -51,6 +51,7 @@ mod feet_on_plates;
 mod filters;
 mod findings;
 mod fitted_range;
+mod foot_contact;
 mod foot_motion;
 mod footfalls;
 mod footfalls_puppet;

@@ -25,6 +25,8 @@ export class Figure {
   private readonly materials: { material: MeshStandardMaterial; side: PageSide | null }[] = [];
   private colors: Palette | null = null;
   private clear = false;
+  /** 1 for the motion of the results, 0 for the recorded one. */
+  corrected = 1;
 
   constructor(view: View, numbers: SeriesReader) {
     this.limbs = view.bodies.map((body) => {
@@ -70,7 +72,7 @@ export class Figure {
   /** Sets the pose of a frame; a body in a gap is not drawn. */
   pose(frame: number): void {
     for (const { group, motion } of this.limbs) {
-      group.visible = motion.at(frame, group.position, group.quaternion);
+      group.visible = motion.at(frame, group.position, group.quaternion, this.corrected);
     }
   }
 }

@@ -84,7 +84,7 @@ class Picture implements View3D {
     );
     this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
-    this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    this.toggles = toggleBar(view, togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
     this.muscles = hasMuscles(view);
     host.append(this.toggles.bar, this.activation.key);
     this.show(this.options);

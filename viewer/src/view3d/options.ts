@@ -12,6 +12,8 @@ export interface ViewOptions {
   muscles: boolean;
   /** Figures of the compared sessions. */
   ghost: boolean;
+  /** The motion of the figure where it was changed: from 0, as recorded, to 1, as in the results. */
+  corrected: number;
 }
 
 /** Moments are hidden at first: with them the picture is too full. */
@@ -22,4 +24,5 @@ export const FIRST_OPTIONS: ViewOptions = {
   contacts: true,
   muscles: true,
   ghost: true,
+  corrected: 1,
 };

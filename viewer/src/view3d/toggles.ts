@@ -8,7 +8,7 @@ import { leavesTrail } from "./trail";
 interface Toggle {
   readonly word: string;
   readonly hint: string;
-  readonly keys: readonly (keyof ViewOptions)[];
+  readonly keys: readonly Exclude<keyof ViewOptions, "corrected">[];
 }
 
 const FORCES: Toggle = { word: "Forces", hint: "Arrows of the ground forces", keys: ["forces"] };
@@ -28,8 +28,17 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   ];
 }
 
-/** Buttons in a corner of the picture that show and hide its parts; call `refresh` after the options changed. */
+/** Whether the figure can be shown as recorded and as changed. */
+function wasChanged(view: View): boolean {
+  return view.bodies.some((body) => body.recorded !== undefined);
+}
+
+/**
+ * Buttons in a corner of the picture that show and hide its parts, and a slider where the motion was changed; call `refresh` after the
+ * options changed.
+ */
 export function toggleBar(
+  view: View,
   toggles: Toggle[],
   now: ViewOptions,
   choose: (options: Partial<ViewOptions>) => void,
@@ -41,12 +50,24 @@ export function toggleBar(
     made.title = toggle.hint;
     return [toggle, made] as const;
   });
+  const slider = element("input", {
+    type: "range",
+    min: "0",
+    max: "1",
+    step: "0.01",
+    "aria-label": "Motion of the figure: left as recorded, right as corrected",
+  });
+  slider.addEventListener("input", () => choose({ corrected: slider.valueAsNumber }));
+  const words = ["Recorded", "Corrected"].map((word) => element("span", {}, word));
+  const [recorded, corrected] = words as [HTMLElement, HTMLElement];
+  const mixture = wasChanged(view) ? [element("label", { class: "view-mixture" }, recorded, slider, corrected)] : [];
   const refresh = (): void => {
+    slider.value = String(now.corrected);
     for (const [toggle, made] of buttons) {
       made.setAttribute("aria-pressed", String(shown(toggle)));
     }
   };
   refresh();
   const attributes = { class: "view-toggles", role: "group", "aria-label": "Shown in the picture" };
-  return { bar: element("div", attributes, ...buttons.map(([, made]) => made)), refresh };
+  return { bar: element("div", attributes, ...buttons.map(([, made]) => made), ...mixture), refresh };
 }

@@ -95,6 +95,7 @@ export class World {
     this.trail.group.visible = options.trail;
     this.contacts.group.visible = options.contacts;
     this.muscles.group.visible = options.muscles;
+    this.figure.corrected = options.corrected;
     this.figure.translucent = options.muscles && hasMuscles(this.view);
     for (const ghost of this.ghosts) {
       ghost.show(options);

@@ -39,10 +39,11 @@ motion, also for single steps alongside the plates (stances.csv lists them); wit
 compared with the measurement. With --track, motion and forces agree to rounding, without force plates.
 
 Files written to DIR: kinematics.mot, moments.sto, powers.sto, reactions.sto, grf.mot, external_loads.xml,
-events.csv, stances.csv, cycles.csv, clinical.csv, times_and_distances.csv, summary.json, timings.json,
-report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --muscles
-muscles.sto, reactions_contact.sto and, from electromyograms, emg.sto; with --device moments_biological.sto; with predicted forces grf_sd.mot; with --predict or --track and force plates
-grf_measured.mot. The results of an earlier run in DIR are replaced as a whole; other files stay.
+events.csv, stances.csv, foot_contact.sto, cycles.csv, clinical.csv, times_and_distances.csv, summary.json,
+timings.json, report.html (open it with `ambulo view DIR`), figures/*.svg, subject.osim (the body used); with --muscles
+muscles.sto, reactions_contact.sto and, from electromyograms, emg.sto; with --device moments_biological.sto;
+with --consistent or --track kinematics_recorded.mot; with predicted forces grf_sd.mot; with --predict or --track
+and force plates grf_measured.mot. The results of an earlier run in DIR are replaced as a whole; other files stay.
 docs/OUTPUTS.md describes the files. --keep writes only some of them; summary.json is always written.
 
 The verdict states whether a person could make this motion (strength, joint ranges, power, friction, centre of

@@ -64,7 +64,7 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])(?:[ =](?:<[^<>]*>|[A-Z][A
 _VERB = re.compile(r"`ambulo ([a-z]+)((?:\s[^`]*)?)`")
 #: Verbs with another name in Python.
 _FUNCTIONS = {"calibrate": "calibrate_person"}
-#: What the parser of the command line adds.
+#: Endings that the parser of the command line adds to messages.
 _USAGE = re.compile(r"\s*\n+(?:Usage:|For more information, try).*", re.DOTALL)
 
 

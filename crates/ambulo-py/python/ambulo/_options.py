@@ -55,7 +55,7 @@ What = Literal["markers", "analog", "forces"]
 
 
 class MuscleOptions(TypedDict, total=False):
-    """What differs from the defaults of the muscles: the argument `muscles` of `forces` (docs/MUSCLES.md)."""
+    """Settings of the muscles that differ from the defaults: the argument `muscles` of `forces` (docs/MUSCLES.md)."""
 
     reserves: str
     emg: str

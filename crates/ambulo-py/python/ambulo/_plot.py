@@ -73,7 +73,7 @@ def _draw(panel: Axes, result: Result, table: Table, name: str, over: str) -> No
     title, directions = _ambulo.clinical_wording(name) or (name.replace("_", " "), ["", ""])
     panel.set(title=title, ylabel=unit, xlabel="s" if over == "time" else "% of the gait cycle")
     panel.axhline(0, color="0.7", linewidth=0.8, zorder=0)
-    # What the signs mean, at the ends of the axis.
+    # Clinical words for the two signs, at the ends of the axis.
     for word, height, place in zip(directions, (0.98, 0.02), ("top", "bottom"), strict=True):
         panel.text(0.02, height, word, transform=panel.transAxes, va=place, fontsize="small", color="0.4")
 

@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
 _CLINICAL = "clinical.csv"
 #: Files of attributes with another name.
-_FILES = {"angles": "kinematics", "contact": "reactions_contact", "cop": "grf", "sd": "grf_sd"}
+_FILES = {"angles": "kinematics", "recorded": "kinematics_recorded", "contact": "reactions_contact", "cop": "grf", "sd": "grf_sd"}
 _MODELS = ("subject.osim", "figure.osim")
 #: Why a run may not have a table.
 _MISSING = {
     "kinematics.mot": "it is not the run of a motion of a body",
+    "kinematics_recorded.mot": "its motion is the recorded one (consistent=True or track=True change it)",
     "moments.sto": "it is not the run of a motion of a body",
     "powers.sto": "it is not the run of a motion of a body",
     "reactions.sto": "it is not the run of a motion of a body",
@@ -33,6 +34,7 @@ _MISSING = {
     "cycles.csv": "the motion has no whole gait cycle",
     "events.csv": "no foot strike or foot off was detected",
     "stances.csv": "no stance was detected",
+    "foot_contact.sto": "no stance was detected, or the body has no soles",
     _CLINICAL: "the body has no legs whose joints have clinical signs",
     "times_and_distances.csv": "the motion has no stride",
     "model": "the body is none that an OpenSim model can represent, or there is none",
@@ -191,6 +193,16 @@ class Result:
     def stances(self) -> Table:
         """Stances with the source of their loads (``plate 1``, ``table``, ``predicted``, ``unknown``), as ``stances.csv``."""
         return self._needed("stances.csv")
+
+    @property
+    def foot_contact(self) -> Table:
+        """Frames in which heel and toes of each foot touch the ground (1) or do not (0), as ``foot_contact.sto``."""
+        return self._needed("foot_contact.sto")
+
+    @property
+    def recorded(self) -> Table:
+        """The recorded motion, as ``kinematics_recorded.mot``; only if the motion was changed so that it agrees with the forces."""
+        return self._needed("kinematics_recorded.mot")
 
     @property
     def clinical(self) -> Table:

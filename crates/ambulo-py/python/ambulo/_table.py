@@ -28,7 +28,7 @@ class Table(dict[str, Any]):
     """Columns of equal length with names and units: a dictionary of columns that cannot be changed.
 
     ``table["knee_angle_r"]`` is a column, a NumPy array of numbers or texts, ``table[["hip_flexion_r", "knee_angle_r"]]`` a table of some columns, ``table[:100]`` one of some
-    rows; ``numpy.asarray(table)`` are all numbers. Iteration, `keys`, `values` and `items` begin with ``time`` where rows are frames; ``len(table)``
+    rows; ``numpy.asarray(table)`` is an array of all its numbers. Iteration, `keys`, `values` and `items` begin with ``time`` where rows are frames; ``len(table)``
     is the number of rows. ``pandas.DataFrame(table)``, ``polars.DataFrame(table)`` and DuckDB take the columns with their names.
 
     Attributes

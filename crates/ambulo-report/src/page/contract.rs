@@ -540,6 +540,20 @@ pub(crate) struct ViewBody {
     pub side: Option<PageSide>,
     /// Shapes in the body's axes.
     pub shapes: Vec<ViewShape>,
+    /// Its path.
+    #[serde(flatten)]
+    #[cfg_attr(feature = "contract", ts(flatten))]
+    pub path: ViewPath,
+    /// Its path in the recorded motion, if the motion was changed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "contract", ts(optional))]
+    pub recorded: Option<ViewPath>,
+}
+
+/// The pose of a body over time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "contract", derive(ts_rs::TS))]
+pub(crate) struct ViewPath {
     /// Origin of the body in the world [m]: x, y, z.
     pub position: [Series; 3],
     /// Orientation, world from body: x, y, z, w of a unit quaternion without jumps of sign.

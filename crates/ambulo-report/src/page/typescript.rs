@@ -76,6 +76,7 @@ fn views(config: &Config) -> Vec<String> {
         ViewTorque::decl(config),
         ViewContact::decl(config),
         ViewMuscle::decl(config),
+        ViewPath::decl(config),
         ViewPathPoint::decl(config),
     ]
 }

@@ -16,8 +16,8 @@ use ambulo::muscles::set::MuscleSet;
 use ambulo_formats::osim::OsimModel;
 use ambulo_formats::table::Table;
 use ambulo_results::{
-    BODIES, Folder, GROUND, GROUND_MEASURED, KINEMATICS, MOMENTS, MUSCLES, ResultsError, RunSummary, SUBJECT, Summary,
-    error_chain,
+    BODIES, Folder, GROUND, GROUND_MEASURED, KINEMATICS, KINEMATICS_RECORDED, MOMENTS, MUSCLES, ResultsError,
+    RunSummary, SUBJECT, Summary, error_chain,
 };
 
 /// The model and its motion in a folder.
@@ -60,6 +60,13 @@ impl Stage {
         drop(angles);
         let mut stage = Stage::of_motion(&model, &trajectory, summary.height_m);
         drop(trajectory);
+        if let Some(table) = same_rows(folder, KINEMATICS_RECORDED, rows)? {
+            let recorded = self::trajectory(&model, &table);
+            let recorded = recorded.map_err(|reason| folder.unreadable(KINEMATICS_RECORDED, reason))?;
+            for (body, path) in stage.bodies.iter_mut().zip(paths(&model, &recorded)) {
+                body.recorded = Some(path);
+            }
+        }
         stage.plates = plates(&summary);
         for (file, role) in [(GROUND, ForceRole::Main), (GROUND_MEASURED, ForceRole::Measured)] {
             if let Some(table) = same_rows(folder, file, rows)? {
@@ -106,6 +113,7 @@ impl Stage {
                 side: places.side(body),
                 shapes,
                 path,
+                recorded: None,
             }
         };
         let bodies: Vec<StageBody> = model.body_ids().zip(shapes).zip(paths).map(body).collect();
@@ -174,7 +182,7 @@ fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {
     paths
 }
 
-/// The coordinates exactly as in the file; missing ones are at their default. Rates are not used.
+/// The coordinates exactly as in a file of angles; missing ones are at their default. Rates are not used.
 fn trajectory(model: &Model, table: &Table) -> Result<Trajectory, String> {
     let motion =
         coordinates_from_table(model, table, KINEMATICS, &mut Findings::default()).map_err(|e| error_chain(&e))?;

@@ -82,6 +82,8 @@ pub struct StageBody {
     pub shapes: Vec<ViewShape>,
     /// Pose of the body over time.
     pub path: BodyPath,
+    /// The same in the recorded motion, where the motion was changed.
+    pub recorded: Option<BodyPath>,
 }
 
 /// A force plate.

@@ -157,7 +157,7 @@ fn bodies(
             let rows = paths.remove(name);
             let missing = || folder.unreadable(POSES, format!("`{name}` of {SHAPES} has no rows"));
             let path = path(&rows.ok_or_else(missing)?, kept);
-            Ok(StageBody { name: name.clone(), parent: None, side, shapes: shapes.clone(), path })
+            Ok(StageBody { name: name.clone(), parent: None, side, shapes: shapes.clone(), path, recorded: None })
         })
         .collect()
 }

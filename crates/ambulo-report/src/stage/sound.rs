@@ -15,8 +15,9 @@ impl Stage {
 
     fn bodies_defect(&self) -> Option<String> {
         self.bodies.iter().find_map(|body| {
-            let placed = body.path.position.iter().enumerate();
-            let turned = body.path.rotation.iter().enumerate();
+            let paths = || std::iter::once(&body.path).chain(&body.recorded);
+            let placed = paths().flat_map(|path| path.position.iter().enumerate());
+            let turned = paths().flat_map(|path| path.rotation.iter().enumerate());
             let place = placed.filter_map(|(i, place)| Some((i, unsound(place)?)));
             let turn = turned.filter_map(|(i, turn)| Some((i, turn.coords.iter().copied().find(|x| !is_sound(*x))?)));
             let at = |(i, x): (usize, f64)| refused(&format!("the place of `{}` in row {}", body.name, i + 1), x);

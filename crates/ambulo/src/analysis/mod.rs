@@ -7,6 +7,7 @@ mod event_agreement;
 mod events;
 pub mod feasibility;
 mod fitted_feet;
+mod foot_contact;
 pub(crate) mod foot_progression;
 mod functional_joints;
 mod ground_agreement;
@@ -36,6 +37,7 @@ pub use comparison::{Agreement, ComparisonError, Curve, compare};
 pub use cycles::{CYCLE_SAMPLES, Cycle, cycles, over_cycle, over_cycle_of};
 pub use event_agreement::{EventAgreement, event_agreement};
 pub use events::{Contact, Event, EventKind, SHORTEST_CONTACT_S, contacts_from_force, events};
+pub use foot_contact::{FootContact, foot_contact};
 pub use foot_progression::foot_progression;
 pub(crate) use functional_joints::joints_of_movement;
 #[doc(hidden)]

@@ -202,7 +202,7 @@ fn with_prediction(
         speed_m_s: over_ground(model, &trajectory, &ground, model.up()).map(|(_, speed)| speed),
         residual: residual(model, &forces),
         trajectory,
-        adjusted: false,
+        recorded: None,
         ground,
         forces,
     }

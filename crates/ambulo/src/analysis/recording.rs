@@ -49,8 +49,8 @@ impl AnalysisSettings {
 pub struct Analysis {
     /// The motion that was used.
     pub trajectory: Trajectory,
-    /// Whether it differs from the recorded one, so that motion and forces agree (`reduce_residual`, [`super::track`]).
-    pub adjusted: bool,
+    /// The recorded motion, where it was changed so that motion and forces agree (`reduce_residual`, [`super::track`]).
+    pub recorded: Option<Trajectory>,
     /// The ground forces at the times of the trajectory.
     pub ground: GroundForces,
     /// Joint forces, and the reactions in the joints to ground.
@@ -290,7 +290,7 @@ pub(super) fn with_forces(
     let speed_m_s = over_ground(model, &trajectory, &ground, up).map(|(_, speed)| speed);
     let (first, frames) = grid.inside(within.unwrap_or_default());
     let residual = residual_within(model, &forces, first..first + frames);
-    Ok(Analysis { trajectory, adjusted: false, ground, forces, events, cycles, mass, speed_m_s, residual })
+    Ok(Analysis { trajectory, recorded: None, ground, forces, events, cycles, mass, speed_m_s, residual })
 }
 
 /// Puts the requested time range into the error of a range that is too short, with the time that motion and forces both

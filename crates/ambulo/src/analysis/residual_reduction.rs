@@ -75,8 +75,9 @@ pub(crate) fn reduce_residual(
         MassSource::Model => Mass { kg: done.model.mass(), ..analysis.mass },
         MassSource::Plates | MassSource::Standing => analysis.mass,
     };
+    let recorded = Some(analysis.trajectory);
     let trajectory = done.trajectory.clone();
-    let analysis = Analysis { trajectory, adjusted: true, forces, residual, mass, ..analysis };
+    let analysis = Analysis { trajectory, recorded, forces, residual, mass, ..analysis };
     Ok((analysis, Some(done)))
 }
 

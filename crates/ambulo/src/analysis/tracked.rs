@@ -41,7 +41,8 @@ pub fn track(
     let trajectory = found.trajectory.clone();
     let forces = inverse_with_residual(&mut Workspace::new(model), &trajectory, &ground.loads());
     let residual = residual(model, &forces);
-    let analysis = Analysis { trajectory, adjusted: true, ground, forces, residual, ..analysis.clone() };
+    let recorded = Some(analysis.trajectory.clone());
+    let analysis = Analysis { trajectory, recorded, ground, forces, residual, ..analysis.clone() };
     Ok((analysis, found))
 }
 

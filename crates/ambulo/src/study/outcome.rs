@@ -124,7 +124,7 @@ pub struct PredictedGround {
 impl PredictedGround {
     /// The stances of the motion of an analysis, if this was predicted from the same motion.
     pub(super) fn stances(&self, analysis: &Analysis, settings: AnalysisSettings) -> Option<&Footfalls> {
-        (!analysis.adjusted && settings.filters_as_the_prediction()).then_some(&self.prediction.footfalls)
+        (analysis.recorded.is_none() && settings.filters_as_the_prediction()).then_some(&self.prediction.footfalls)
     }
 }
 

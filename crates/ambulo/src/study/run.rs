@@ -321,7 +321,7 @@ fn plate_timing(
         Some(predicted) => predicted.measured.as_ref(),
         None => Some(analysis).filter(|_| !matches!(observed.origin, Origin::Simulation { .. })),
     };
-    let stances = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let stances = loads.filter(|_| analysis.recorded.is_none()).map(|loads| &loads.footfalls);
     let timing = |measured| PlateTiming::of(observed, measured, stances, processing);
     let found = measured.and_then(timing).unwrap_or_default();
     found.delay.iter().for_each(|delay| delay.report(findings));
@@ -357,7 +357,7 @@ fn stances<'p>(
     loads: Option<&'p StanceLoads>,
     processing: analysis::AnalysisSettings,
 ) -> Cow<'p, Footfalls> {
-    let of_measured = loads.filter(|_| !analysis.adjusted).map(|loads| &loads.footfalls);
+    let of_measured = loads.filter(|_| analysis.recorded.is_none()).map(|loads| &loads.footfalls);
     let known = prediction.and_then(|found| found.stances(analysis, processing)).or(of_measured);
     let detect = || footfalls(model, &analysis.trajectory, &person.soles, &mut Findings::default());
     known.map_or_else(|| Cow::Owned(detect()), Cow::Borrowed)

@@ -49,7 +49,7 @@ const NUMBERS: [(&str, &str); 22] = [
 ];
 /// Loads of joints in the table of trials, in the order of the summary.
 const CONTACT_LOADS: [&str; 5] = ["hip", "knee", "ankle", "knee_medial", "knee_lateral"];
-/// What the summary has of each load: name, unit in the name of the column.
+/// Quantities of each load in the summary: name, unit in the name of the column.
 const CONTACT_QUANTITIES: [(&str, &str); 3] = [("first_peak", "bw"), ("second_peak", "bw"), ("impulse", "bw_s")];
 /// Texts of the summary in the table of trials.
 const TEXTS: [(&str, &str); 10] = [

@@ -2,8 +2,8 @@
 
 use super::block::Block;
 use super::contract::{
-    PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewMuscle, ViewPathPoint, ViewPlate,
-    ViewTorque,
+    PageSide, Role, Series, TimeAxis, View, ViewBody, ViewContact, ViewForce, ViewMuscle, ViewPath, ViewPathPoint,
+    ViewPlate, ViewTorque,
 };
 use crate::stage::{
     BodyPath, ForceRole, Stage, StageBody, StageContact, StageForce, StageMuscle, StagePlate, StageTorque,
@@ -52,12 +52,18 @@ pub(super) fn drawn(stage: Stage, block: &mut Block) -> Viewed {
 }
 
 fn of_body(body: StageBody, block: &mut Block) -> ViewBody {
-    let BodyPath { position, rotation } = body.path;
     ViewBody {
         name: body.name,
         side: page_side(body.side),
         shapes: body.shapes,
-        position: vectors(&position, block),
+        path: of_path(&body.path, block),
+        recorded: body.recorded.map(|path| of_path(&path, block)),
+    }
+}
+
+fn of_path(BodyPath { position, rotation }: &BodyPath, block: &mut Block) -> ViewPath {
+    ViewPath {
+        position: vectors(position, block),
         // x, y, z, w is nalgebra's own order.
         rotation: [0, 1, 2, 3].map(|i| block.add(&rotation.iter().map(|q| q.coords[i]).collect::<Vec<f64>>())),
     }
