@@ -12,6 +12,7 @@
 //! | a model that is read and scaled once gives each trial the results of `ambulo forces`     | single precision                 |
 //! | the page is written when all shards are complete, with the same bytes                  | exact                            |
 //! | all files of a table have the same columns, whatever the bodies, and a card lists them  | exact                            |
+//! | with other limits only parts with trials that could not be computed are computed again | exact                            |
 //! | the error against one plate is in the column of the foot that stood on it              | exact                            |
 
 use crate::shared_data;
@@ -239,7 +240,8 @@ fn all_files_of_a_table_have_the_same_columns_and_the_card_lists_them() {
         "file,model,static,mass\nset/person 0/walk.mot,set/person 0/figure.osim,,\n\
          demo/input/walk.c3d,,demo/input/standing.c3d,75\nset/person 1/broken.c3d,,,\n",
     );
-    let words = ["batch", "list.csv", "--part", "1", "--quiet", "-o", "out", "--shard"];
+    let keep = "--keep=kinematics,moments,powers,reactions,grf,grf_sd,foot_contact,events,cycles,clinical";
+    let words = ["batch", "list.csv", "--part", "1", "--quiet", keep, "-o", "out", "--shard"];
     bench.run(&[&words[..], &["0/2"]].concat()).done();
     assert!(!bench.exists("out/README.md"), "one of two shards");
     bench.run(&[&words[..], &["1/2"]].concat()).done();
@@ -264,11 +266,37 @@ fn all_files_of_a_table_have_the_same_columns_and_the_card_lists_them() {
         assert!(card.contains(&format!("| `{name}` |")), "{name}");
     }
     assert!(card.contains("2 trials were computed, 1 could not be"), "{card}");
+    let described: Vec<&str> = card.lines().filter(|line| line.starts_with("| `")).collect();
+    assert!(described.len() > 100, "{}", described.len());
+    assert!(described.iter().all(|line| !line.ends_with("|  |")), "every column has a meaning: {card}");
     // A part that is lost gets the same columns again.
     fs::remove_file(bench.folder.join("out/frames/part-000-00000.parquet")).unwrap();
     bench.run(&[&words[..], &["0/2", "--resume"]].concat()).done();
     assert!(tables(&bench, "out") == found);
     assert_eq!(bench.text("out/README.md"), card);
+}
+
+#[test]
+fn a_trial_that_was_too_large_is_computed_when_the_limit_is_raised() {
+    let bench = set("batch_limits");
+    fs::remove_file(bench.folder.join("set/person 1/broken.c3d")).unwrap();
+    // Comments make one file larger than the others.
+    let walk = bench.text("set/person 3/walk.mot");
+    let largest = walk.len() as f64 * 1.1 + bench.read("set/person 3/figure.osim").len() as f64;
+    bench.write("set/person 3/walk.mot", format!("{}{walk}", "long header\n".repeat(walk.len() / 40)));
+    let limit = format!("--size-limit={}", largest / 1e6);
+    bench.run(&[&BATCH[..], &["out", &limit]].concat()).done();
+    let part = |k: usize| bench.read(&format!("out/trials/part-000-0000{k}.parquet"));
+    let errors = |k: usize| texts(&ParquetTable::read(&part(k)).unwrap(), "error");
+    assert_eq!(errors(0), [None, None]);
+    let [None, Some(error)] = &errors(1)[..] else { panic!("{:?}", errors(1)) };
+    assert!(error.contains("MB; expected at most") && error.contains("continue the batch"), "{error}");
+    let before = [part(0), part(1)];
+    bench.run(&[&BATCH[..], &["out", &limit, "--resume"]].concat()).done();
+    assert_eq!(before, [part(0), part(1)]);
+    bench.run(&[&BATCH[..], &["out", "--resume"]].concat()).done();
+    assert_eq!(before[0], part(0), "a part without an error stays closed");
+    assert_eq!(errors(1), [None, None]);
 }
 
 /// The first frames of a TRC.

@@ -159,17 +159,15 @@ pub(super) fn zero_or_more_seconds(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn above_zero(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
-        _ => Err("expected a number of seconds above 0".into()),
-    }
+    more_than_zero(text).ok_or_else(|| "expected a number of seconds above 0".into())
 }
 
 pub(super) fn megabytes(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(size) if size.is_finite() && size > 0.0 => Ok(size),
-        _ => Err("expected a number of megabytes above 0".into()),
-    }
+    more_than_zero(text).ok_or_else(|| "expected a number of megabytes above 0".into())
+}
+
+fn more_than_zero(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0)
 }
 
 /// The force of a push [N]; larger ones are typing errors.

@@ -1,4 +1,4 @@
-//! `README.md` beside the tables: what each table and column holds, for a reader who did not run the batch.
+//! `README.md` beside the tables describes each table and column to readers who did not run the batch.
 
 use super::ledger::Description;
 use super::rows_of;
@@ -6,8 +6,8 @@ use crate::printer::{BatchRow, failures};
 use ambulo_formats::parquet::{ColumnValues, ParquetTable};
 use std::fmt::Write;
 
-/// What the columns of the table of trials mean, by the beginning of their names; the first that fits.
-const MEANINGS: [(&str, &str); 37] = [
+/// Meanings of the columns of the table of trials by the beginning of their names; the first that fits is the meaning.
+const MEANINGS: [(&str, &str); 36] = [
     ("key", "identity of the trial: a hash of the version, the options and all its files"),
     ("trial", "name of the trial"),
     ("person", "person, as stated or by the folder"),
@@ -44,7 +44,6 @@ const MEANINGS: [(&str, &str); 37] = [
     ("predicted_vertical_rmse", "error of the predicted vertical force against the plates, root mean square"),
     ("frames", "number of rows in `frames/`"),
     ("findings", "warnings and notes, in JSON"),
-    ("", "load of this joint in stance"),
 ];
 
 /// Units by the ends of names, the longest first.
@@ -61,7 +60,7 @@ const UNITS: [(&str, &str); 10] = [
     ("_s", "s"),
 ];
 
-/// What the other tables hold.
+/// Descriptions of all tables, and their axes and signs.
 const TABLES: &str = "\
 | folder | one row is | columns |
 |---|---|---|
@@ -134,7 +133,7 @@ fn add_columns(out: &mut String, name: &str, table: &ParquetTable) {
         let stated = table.about(&format!("unit of {}", column.name)).filter(|unit| *unit != "1");
         let is_number = matches!(column.values, ColumnValues::Double(_) | ColumnValues::Single(_));
         let unit = stated.or_else(|| (is_number && name == "trials").then(|| unit_of(&column.name))).unwrap_or("");
-        let meaning = if name == "trials" { meaning_of(&column.name) } else { of_frame(&column.name) };
+        let meaning = if name == "trials" { meaning_of(&column.name) } else { of_frame(&column.name, unit) };
         let _ = writeln!(out, "| `{}` | {kind} | {unit} | {meaning} |", column.name);
     }
 }
@@ -148,11 +147,12 @@ fn unit_of(column: &str) -> &'static str {
 }
 
 fn meaning_of(column: &str) -> &'static str {
-    MEANINGS.iter().find(|(begin, _)| column.starts_with(begin)).map_or("", |(_, meaning)| meaning)
+    let known = MEANINGS.iter().find(|(begin, _)| column.starts_with(begin)).map(|(_, meaning)| *meaning);
+    known.unwrap_or(if column.contains("_contact_") { "load of this joint in stance" } else { "" })
 }
 
-/// The meaning of a column of frames, by its name.
-fn of_frame(column: &str) -> &'static str {
+/// The meaning of a column of frames, by its name and unit.
+fn of_frame(column: &str, unit: &str) -> &'static str {
     match column {
         "key" | "trial" => "as in `trials/`",
         "frame" => "number of the frame, from 0",
@@ -160,14 +160,21 @@ fn of_frame(column: &str) -> &'static str {
         _ if column.starts_with("ground_source_") => "source of the force: 0, 1 or 2, see above",
         _ if column.ends_with("_sd") => "standard deviation of the predicted force",
         _ if column.starts_with("measured_") => "force that the plates measured, where forces were predicted",
+        _ if column.starts_with("recorded_") => "before the motion was changed",
+        _ if column.ends_with("_contact") => "1 while this end of the sole touches the ground, else 0",
         _ if column.starts_with("clinical_") => "in clinical signs",
         _ if column.starts_with("ground_force") && column.contains("_v") => "ground force on the foot",
         _ if column.starts_with("ground_force") => "centre of pressure",
         _ if column.starts_with("ground_torque") => "free moment",
+        _ if column.contains("_on_") => "reaction of the joint: force `f`, moment `m` or place `p`",
         _ if column.ends_with("_moment") => "moment",
         _ if column.ends_with("_force") => "generalised force of a translation",
         _ if column.ends_with("_power") => "power",
         _ if column.ends_with("_activation") => "activation of the muscle, 0 to 1",
+        _ if column.ends_with("_length") => "length of the muscle with its tendon",
+        _ if column.ends_with("_reserve") => "force that the muscles cannot supply",
+        _ if column.ends_with("_emg") => "envelope of the electromyogram",
+        _ if ["deg", "rad", "m"].contains(&unit) => "coordinate of the body",
         _ => "",
     }
 }

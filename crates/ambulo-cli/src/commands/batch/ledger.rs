@@ -15,6 +15,7 @@
 use super::columns::unify;
 use super::part_file::{read, removed, written};
 use super::tables::PartTables;
+use super::trial::Limits;
 use crate::args::Shard;
 use crate::folder_lock::FolderLock;
 use crate::replacement::write_through;
@@ -33,6 +34,8 @@ const TRIALS: &str = "trials";
 const OF_EVERY_TRIAL: [&str; 2] = ["kinematics", "moments"];
 /// The card of the data.
 const CARD: &str = "README.md";
+/// Key of the limits in the texts of a table of trials.
+const LIMITS: &str = "limits of a trial";
 /// Folder of the locks of the shards.
 const LOCKS: &str = ".shards";
 
@@ -63,12 +66,20 @@ pub(super) struct Ledger {
     shard: Shard,
     /// Whether every trial with results has frames.
     keeps_frames: bool,
+    /// Limits of time and size of a trial, in words.
+    limits: String,
     _lock: FolderLock,
 }
 
 impl Ledger {
     /// Opens the shard of a folder: a new one, or one of the same batch to continue.
-    pub(super) fn open(folder: &Path, shard: Shard, description: &Description, resume: bool) -> Result<Ledger> {
+    pub(super) fn open(
+        folder: &Path,
+        shard: Shard,
+        description: &Description,
+        limits: Limits,
+        resume: bool,
+    ) -> Result<Ledger> {
         let shown = folder.display();
         if folder.is_file() {
             bail!("{shown}: this is a file; expected a folder for the results");
@@ -93,7 +104,8 @@ impl Ledger {
             );
         };
         let keeps_frames = description.keep.iter().any(|table| OF_EVERY_TRIAL.contains(&table.as_str()));
-        let ledger = Ledger { folder: folder.to_owned(), shard, keeps_frames, _lock: lock };
+        let limits = limits.to_string();
+        let ledger = Ledger { folder: folder.to_owned(), shard, keeps_frames, limits, _lock: lock };
         ledger.agree(&path, description)?;
         for table in TABLES {
             let place = folder.join(table);
@@ -200,7 +212,8 @@ impl Ledger {
         Ok(names.filter(|name| name.starts_with(&beginning(self.shard.index))).min())
     }
 
-    /// The table of trials of a closed part; `None` if the part is open.
+    /// The table of trials of a closed part; `None` if the part is open. With other limits a part with a trial that
+    /// could not be computed is open again.
     ///
     /// # Errors
     /// A part of other trials: an input or the list has changed since.
@@ -216,7 +229,12 @@ impl Ledger {
         let Some(ColumnValues::Text(found)) = table.column("key") else {
             bail!("{shown}: found no column `key`; expected the trials of a batch. {hint}");
         };
-        if !self.has_results(part, &table) {
+        let has_error = || match table.column("error") {
+            Some(ColumnValues::Text(errors)) => errors.iter().any(Option::is_some),
+            _ => false,
+        };
+        let has_other_limits = || table.about(LIMITS) != Some(&self.limits);
+        if !self.has_results(part, &table) || has_other_limits() && has_error() {
             return Ok(None);
         }
         let differs =
@@ -258,9 +276,11 @@ impl Ledger {
     /// and polars do not read together with the others; so such a part has no file.
     pub(super) fn close(&self, part: usize, tables: &PartTables) -> Result<()> {
         let PartTables { trials, frames, cycles, events } = tables;
+        let mut trials = trials.clone();
+        trials.about.push((LIMITS.to_owned(), self.limits.clone()));
         let card = self.folder.join(CARD);
         removed(&card).with_context(|| format!("{}: cannot be removed", card.display()))?;
-        for (name, table) in TABLES.into_iter().zip([frames, cycles, events, trials]) {
+        for (name, table) in TABLES.into_iter().zip([frames, cycles, events, &trials]) {
             let path = self.place(name, part);
             let put = match name == FRAMES && frames.rows() == 0 {
                 true => removed(&path),

@@ -58,7 +58,7 @@ pub(crate) fn compute(args: &BatchArgs, of_trials: &TrialWords, caller: &Caller)
         return Ok(Completion::Passed);
     }
     let description = description(args, of_trials, &plan.trials[..all]);
-    let ledger = Ledger::open(&args.output, args.shard, &description, args.resume)?;
+    let ledger = Ledger::open(&args.output, args.shard, &description, limits, args.resume)?;
     let batch = Batch {
         args,
         work: &work,

@@ -13,27 +13,35 @@ use ambulo::model::Model;
 use ambulo::motion::Event;
 use ambulo_formats::table::Table;
 use ambulo_results::{
-    CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, Keep, TIMES_AND_DISTANCES, columns_of_predictions, cycle_rows,
-    unit_of,
+    CLINICAL, CYCLES, CycleRow, EVENTS, GROUND_MEASURED, KINEMATICS_RECORDED, Keep, TIMES_AND_DISTANCES,
+    columns_of_predictions, cycle_rows, unit_of,
 };
 use anyhow::{Context, Error, Result, anyhow, bail};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Tables whose columns have names of another table, and the prefix of these columns.
-const PREFIXES: [(&str, &str); 2] = [(GROUND_MEASURED, "measured_"), (CLINICAL, "clinical_")];
+const PREFIXES: [(&str, &str); 3] =
+    [(GROUND_MEASURED, "measured_"), (CLINICAL, "clinical_"), (KINEMATICS_RECORDED, "recorded_")];
 
-/// What a trial may take; a trial that takes more is a row with its error.
+/// Largest time and size of a trial; a trial that is longer or larger is a row with its error.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Limits {
     /// Time until the stage after which the trial ends [s].
     pub(super) time_s: Option<f64>,
     /// Size of all files of the trial together [MB].
     pub(super) size_mb: Option<f64>,
+}
+
+impl Display for Limits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let shown = |limit: Option<f64>, unit: &str| limit.map_or("none".to_owned(), |limit| format!("{limit} {unit}"));
+        write!(f, "time {}, size {}", shown(self.time_s, "s"), shown(self.size_mb, "MB"))
+    }
 }
 
 /// The work that a batch does on every trial.
@@ -47,7 +55,7 @@ pub(super) struct Work {
     pub(super) keep: Vec<String>,
     /// Who may stop the computation.
     pub(super) caller: Caller,
-    /// What a trial may take.
+    /// Largest time and size of a trial.
     pub(super) limits: Limits,
     /// Data that trials share.
     pub(super) shared: Shared,
@@ -145,15 +153,17 @@ impl Work {
         let Limits { time_s, size_mb } = self.limits;
         let found_mb = size_mb.map_or(0.0, |_| megabytes(&trial.files));
         if let Some(limit) = size_mb.filter(|limit| found_mb > *limit) {
-            bail!("the files have {found_mb:.1} MB; expected at most {limit} MB. hint: raise the limit of size");
+            bail!(
+                "the files have {found_mb:.1} MB; expected at most {limit} MB. hint: raise the limit of size and continue the batch"
+            );
         }
         // A time that no clock can count is no limit.
         let end = |seconds: f64| Instant::now().checked_add(Duration::try_from_secs_f64(seconds).ok()?);
         let caller = Caller { deadline: time_s.and_then(end), ..self.caller.clone() };
         self.computed(trial, &caller).map_err(|error| match time_s {
             Some(limit) if caller.is_stopped() && !self.caller.is_stopped() => anyhow!(
-                "it took longer than the limit of {limit} s. hint: raise the limit of time, or choose a shorter time \
-                 range"
+                "it took longer than the limit of {limit} s. hint: raise the limit of time and continue the batch, or \
+                 choose a shorter time range"
             ),
             _ => error,
         })
