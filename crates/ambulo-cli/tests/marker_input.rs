@@ -243,7 +243,7 @@ fn a_model_needs_the_markers_of_the_recording_and_rejects_options_of_the_built_i
     }
     for given in [&STILL[..], &["--fit", "trajectory"], &["--plate", "1=r"]] {
         let run = forces(&bench, "walk.mot", &[&figure[..], &["--grf", "walk_grf.mot"], given].concat());
-        run.refused(&["walk.mot", "is for markers (.c3d, .trc)", &format!("hint: `{} ", given[0])]);
+        run.refused(&["walk.mot", "can only be used with markers (.c3d, .trc)", &format!("hint: `{} ", given[0])]);
     }
     let run = forces(&bench, "walk.trc", &["--model", "walk.trc", "--grf", "walk_grf.mot"]);
     run.refused(&["walk.trc"]);

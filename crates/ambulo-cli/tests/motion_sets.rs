@@ -117,8 +117,9 @@ fn trials_of_a_subject_are_listed_and_computed_one_by_one_or_all() {
     let forces = |more: &[&str]| bench.run(&[&["forces", "subject.b3d", "--keep", "tables"], more].concat());
     forces(&["-o", "none"]).refused(&["subject.b3d: the file has 2 trials; expected one of 1 (walk/1), 2 (no plates)"]);
     forces(&["--trial", "3"]).refused(&["the file has no trial `3`", "`--trial"]);
-    forces(&["--trial", "1", "--grf", "x.mot"]).refused(&["has no effect for a .b3d", "`--grf FILE`"]);
-    forces(&["--trial", "1", "--markers", "keypoints"]).refused(&["the marker set is for markers", "`--model"]);
+    forces(&["--trial", "1", "--grf", "x.mot"]).refused(&["cannot be used with a .b3d", "`--grf FILE`"]);
+    forces(&["--trial", "1", "--markers", "keypoints"])
+        .refused(&["the marker set can only be used with markers", "`--model"]);
     bench
         .run(&["forces", "demo/input/walk.mot", "--model", "demo/input/figure.osim", "--trial", "1"])
         .refused(&["a trial is chosen in a .b3d", "`--trial"]);

@@ -71,7 +71,7 @@ fn a_marker_set_without_a_model_or_markers_is_refused() {
     forces(&bench, &[&["walk.trc"][..], &set].concat()).refused(&["`--marker-set FILE`", "`--model FILE.osim`"]);
     forces(&bench, &[&["walk.mot", "--model", "figure.osim"][..], &set].concat()).refused(&[
         "walk.mot",
-        "is for markers",
+        "can only be used with markers",
         "`--marker-set FILE`",
     ]);
     bench.edit("markers.xml", "> pelvis <", "> hip <");

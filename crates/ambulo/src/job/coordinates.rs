@@ -44,7 +44,8 @@ fn reject_marker_fields(job: &Job) -> Result<(), JobError> {
         (Field::Fit, job.settings.fit.is_some()),
     ];
     let Some((field, _)) = given.into_iter().chain(job.of_joints()).find(|(_, given)| *given) else { return Ok(()) };
-    let what = format!("the {} is for markers (.c3d, .trc); recorded coordinates have a model", field.name());
+    let what =
+        format!("the {} can only be used with markers (.c3d, .trc); recorded coordinates have a model", field.name());
     Err(JobError::new(&[field], what).within(job.shown()))
 }
 

@@ -100,7 +100,7 @@ fn check(job: &Job) -> Result<(), JobError> {
         (Field::Fit, job.settings.fit.is_some()),
     ];
     if let Some((field, _)) = never.into_iter().find(|(_, given)| *given) {
-        let what = format!("the {} has no effect for a .b3d, which has its own ground forces", field.name());
+        let what = format!("the {} cannot be used with a .b3d, which has its own ground forces", field.name());
         return Err(JobError::new(&[field], what).within(job.shown()));
     }
     if job.model.is_some() {
@@ -109,7 +109,7 @@ fn check(job: &Job) -> Result<(), JobError> {
     match of_markers.into_iter().chain(job.of_joints()).find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
-                "the {} is for markers, but the file's own model and coordinates are used; expected a model, or the \
+                "the {} can only be used with markers, but the file's own model and coordinates are used; expected a model, or the \
                  built-in body, to fit the markers",
                 field.name()
             );
