@@ -4,7 +4,7 @@
 //! trajectory in blocks of frames that stay in the processor's cache, so an array in Fortran order (columns are
 //! contiguous) is read fastest.
 
-use crate::arrays::array_of;
+use crate::arrays::{NumberArray, array_of};
 use crate::failure::{Listed, exception, listed, refused, warn};
 use crate::muscles;
 use crate::recordings::vectors;
@@ -25,11 +25,8 @@ use ambulo::simulation::synthetic::RATES_HZ;
 use ambulo::spatial::{Vec3, Wrench};
 use ambulo::study::Settings;
 use ambulo_results::{deviation_columns, ground_columns};
-use numpy::ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, s};
-use numpy::{
-    AllowTypeChange, IntoPyArray, PyArray2, PyArray4, PyArrayLike2, PyArrayLike3, PyArrayMethods, PyReadwriteArray2,
-    PyUntypedArrayMethods,
-};
+use numpy::ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, Ix2, Ix3, s};
+use numpy::{IntoPyArray, PyArray2, PyArray4, PyArrayMethods, PyReadwriteArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyDict};
@@ -41,7 +38,7 @@ use std::time::Instant;
 /// Frames of one block of inverse dynamics.
 const BLOCK: usize = 128;
 
-pub(crate) type MotionArray<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+pub(crate) type MotionArray<'py> = NumberArray<'py, Ix2>;
 
 /// Values, rates or accelerations of a coordinate.
 type Part = fn(&Trajectory, CoordinateId) -> &[f64];
@@ -362,7 +359,7 @@ impl Model {
         &self,
         py: Python<'py>,
         names: Vec<String>,
-        positions: PyArrayLike3<'py, f64, AllowTypeChange>,
+        positions: NumberArray<'py, Ix3>,
         rate: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
         let positions = positions.as_array();

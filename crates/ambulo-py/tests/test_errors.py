@@ -160,6 +160,15 @@ def test_an_error_can_be_pickled(there):
 def test_arrays_of_other_shapes_are_refused(files):
     with pytest.raises(ambulo.InputError, match=r"expected an array \(frames, 2, 3\)"):
         ambulo.markers(["a", "b"], [[[0, 0, 0]]], 100)
+    model = ambulo.model(files / "figure.osim")
+    frame = [0.0] * len(model.coordinates)
+    with pytest.raises(ambulo.InputError, match=rf"shape \({len(frame)},\); expected \(frames, columns\)") as refused:
+        model.inverse_dynamics(frame, frame, frame)
+    assert refused.value.hint == "`array[None]` has a single frame"
+    with pytest.raises(ambulo.InputError, match=r"expected \(frames, markers, 3\)"):
+        model.fit_markers(["a"], [[0, 0, 0]], 100)
+    with pytest.raises(ValueError, match="could not convert"):
+        model.inverse_dynamics([["a"]], [frame], [frame])
     with pytest.raises(ambulo.InputError, match="column `knee`"):
         ambulo.coordinates([0, 1], {"knee": [1, 2, 3]}, degrees=True)
     with pytest.raises(ambulo.InputError, match="name whose ending is the format"):
