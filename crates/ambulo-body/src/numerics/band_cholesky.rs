@@ -6,7 +6,7 @@
 //! | `width` | w       | bands below the diagonal                        |
 //! | `rows`  | Aᵢ,ᵢ₋w₊ₖ | `rows[i * (w + 1) + k]`, k = 0..=w, diagonal last |
 //!
-//! Four rows are eliminated side by side, one lane per row, four columns at once; every sum has the order of the
+//! Eight rows are eliminated side by side, one lane per row, four columns at once; every sum has the order of the
 //! columns.
 //!
 //! Source: G.H. Golub, C.F. Van Loan, Matrix Computations, section on banded systems (unverified).
@@ -18,7 +18,7 @@ use pulp::{Arch, Simd, WithSimd};
 use std::array;
 
 /// Rows that are eliminated side by side, one per lane.
-const ROWS: usize = 4;
+const ROWS: usize = 8;
 /// Columns that are eliminated side by side.
 const TOGETHER: usize = 4;
 /// Parts of a sum that a processor adds at once.
@@ -84,7 +84,7 @@ impl BandMatrix {
     /// Eliminates the rows from `top` on, as many as there are lanes; false if the matrix is not positive definite.
     /// `columns` is scratch memory of w + [`ROWS`] columns.
     #[inline(always)]
-    fn eliminate_rows(&mut self, top: usize, columns: &mut [[f64; ROWS]]) -> bool {
+    fn eliminate_rows<S: Simd>(&mut self, simd: S, top: usize, columns: &mut [[f64; ROWS]]) -> bool {
         let first = top.saturating_sub(self.width);
         let above = top - first;
         let columns = &mut columns[..above + ROWS];
@@ -92,13 +92,13 @@ impl BandMatrix {
         let mut at = 0;
         while at + TOGETHER <= above {
             let rows: [&[f64]; TOGETHER] = array::from_fn(|c| self.until_diagonal(first + at + c, first));
-            eliminate_columns(columns, at, rows);
+            eliminate_columns(simd, columns, at, rows);
             at += TOGETHER;
         }
         for at in at..above {
-            eliminate_columns(columns, at, [self.until_diagonal(first + at, first)]);
+            eliminate_columns(simd, columns, at, [self.until_diagonal(first + at, first)]);
         }
-        if !eliminate_own(columns, above) {
+        if !eliminate_own(simd, columns, above) {
             return false;
         }
         for row in top..self.size.min(top + ROWS) {
@@ -133,24 +133,19 @@ impl WithSimd for Elimination<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> bool {
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
         let mut columns = vec![[0.0; ROWS]; self.0.width + ROWS];
-        (0..self.0.size).step_by(ROWS).all(|top| self.0.eliminate_rows(top, &mut columns))
+        (0..self.0.size).step_by(ROWS).all(|top| self.0.eliminate_rows(simd, top, &mut columns))
     }
 }
 
 /// Computes N columns of the factor in rows that lie below the diagonal of these columns, of which `rows` has the rows.
 /// Every sum has the order of the columns, so that neither N nor the lanes change it.
 #[inline(always)]
-fn eliminate_columns<const N: usize>(columns: &mut [[f64; ROWS]], at: usize, rows: [&[f64]; N]) {
+fn eliminate_columns<S: Simd, const N: usize>(simd: S, columns: &mut [[f64; ROWS]], at: usize, rows: [&[f64]; N]) {
     let (known, own) = columns.split_at_mut(at);
     let heads = rows.map(|row| &row[..known.len()]);
-    let mut sums = [[-0.0; ROWS]; N];
-    for (k, column) in known.iter().enumerate() {
-        for c in 0..N {
-            add(&mut sums[c], column, heads[c][k]);
-        }
-    }
+    let mut sums = products(simd, known, |k| heads.map(|head| head[k]));
     for c in 0..N {
         let divisor = rows[c][at + c];
         own[c] = array::from_fn(|lane| (own[c][lane] - sums[c][lane]) / divisor);
@@ -163,16 +158,11 @@ fn eliminate_columns<const N: usize>(columns: &mut [[f64; ROWS]], at: usize, row
 /// Computes the columns from `above` on, whose diagonals are in these rows; false if the matrix is not positive
 /// definite.
 #[inline(always)]
-fn eliminate_own(columns: &mut [[f64; ROWS]], above: usize) -> bool {
+fn eliminate_own<S: Simd>(simd: S, columns: &mut [[f64; ROWS]], above: usize) -> bool {
     for at in (above..above + ROWS).step_by(TOGETHER) {
         let lane = at - above;
         let (known, own) = columns.split_at_mut(at);
-        let mut sums = [[-0.0; ROWS]; TOGETHER];
-        for column in known {
-            for c in 0..TOGETHER {
-                add(&mut sums[c], column, column[lane + c]);
-            }
-        }
+        let mut sums = products(simd, known, |k| array::from_fn::<_, TOGETHER, _>(|c| known[k][lane + c]));
         for c in 0..TOGETHER {
             let pivot = own[c][lane + c] - sums[c][lane + c];
             if !(pivot > 0.0 && pivot.is_finite()) {
@@ -187,6 +177,31 @@ fn eliminate_own(columns: &mut [[f64; ROWS]], above: usize) -> bool {
         }
     }
     true
+}
+
+/// For each of N columns the sum over the known columns, with their factors for this one; one lane per row.
+#[inline(always)]
+fn products<S: Simd, const N: usize>(
+    simd: S,
+    known: &[[f64; ROWS]],
+    factors: impl Fn(usize) -> [f64; N],
+) -> [[f64; ROWS]; N] {
+    // As many vectors as the lanes take on this processor are used.
+    let mut sums = [[simd.splat_f64s(-0.0); ROWS]; N];
+    for (k, column) in known.iter().enumerate() {
+        let values = S::as_simd_f64s(column).0;
+        for (sums, factor) in sums.iter_mut().zip(factors(k)) {
+            let factor = simd.splat_f64s(factor);
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum = simd.add_f64s(*sum, simd.mul_f64s(*value, factor));
+            }
+        }
+    }
+    let mut lanes = [[0.0; ROWS]; N];
+    for (lanes, sums) in lanes.iter_mut().zip(&sums) {
+        S::as_mut_simd_f64s(lanes).0.iter_mut().zip(sums).for_each(|(lanes, sum)| *lanes = *sum);
+    }
+    lanes
 }
 
 #[inline(always)]

@@ -11,9 +11,6 @@
 //! | `noise` | σ, [`SmoothnessPrior::marker_noise_m`] | m           |
 //! | `jerk`  | J                              | rad/s³, m/s³  |
 //!
-//! A fit that need only be near the minimum keeps the factor of a step for the next ones, each with its own right-hand
-//! side, as long as that lowers the cost: a solution costs a tenth of a factor. The last step has a factor of its own.
-//!
 //! Long recordings are fitted in blocks that overlap, of which the inner parts are used: the prior reaches a few tenths
 //! of a second, and the matrix of all frames would take 26 kB per frame.
 //!
@@ -28,7 +25,7 @@ use super::problem::FitProblem;
 use super::settings::SmoothnessPrior;
 use super::solve::Outcome;
 use crate::model::{CoordinateKind, Model};
-use crate::numerics::{BandFactor, BandMatrix};
+use crate::numerics::BandMatrix;
 use crate::spatial::Vec3;
 use std::ops::Range;
 
@@ -56,8 +53,8 @@ pub(super) struct Ending {
     small_step: f64,
     /// The last step lowers the cost by less than this share of it.
     small_gain: f64,
-    /// Whether each step has a matrix of its own, with the second derivatives of the positions, which end the iteration
-    /// sooner and may lead astray far from the solution.
+    /// Whether the matrix has the second derivatives of the positions, which end the iteration sooner and may lead
+    /// astray far from the solution.
     newton: bool,
     /// Damping [weights times m²].
     damping: f64,
@@ -67,9 +64,10 @@ impl Ending {
     /// Up to rounding.
     pub(super) const EXACT: Ending =
         Ending { steps: 30, small_step: 1e-7, small_gain: 0.0, newton: true, damping: FLOOR };
-    /// Far below the noise of video.
+    /// Far below the noise of video: a step that gains less changes the distance of the markers by a thousandth, and the
+    /// gains of the next steps decline.
     pub(super) const NEAR: Ending =
-        Ending { steps: 24, small_step: 1e-3, small_gain: 1e-4, newton: false, damping: 1e-4 };
+        Ending { steps: 24, small_step: 1e-3, small_gain: 2e-3, newton: false, damping: 1e-4 };
 }
 
 /// The least-squares problem of a block of frames: positions, weights and the prior.
@@ -85,12 +83,6 @@ struct SmoothFit {
     precision: f64,
     /// 1 / (Δt³ J)² of each unknown.
     stiffness: Vec<f64>,
-}
-
-/// A step, and the factor that gave it.
-struct Step {
-    step: Vec<f64>,
-    factor: BandFactor,
 }
 
 /// Blocks of a recording: the frames that are fitted together, and those of them that are used.
@@ -193,20 +185,14 @@ impl SmoothFit {
         let mut normal = Normal::new(&problem.tree);
         let mut total = self.cost(problem, &x);
         let (mut steps, mut converged) = (0, false);
-        let mut kept: Option<BandFactor> = None;
         while steps < ending.steps && !converged {
-            let again = kept.take().and_then(|factor| self.next_step(problem, &mut normal, &x, factor));
-            let is_new = again.is_none();
-            let next = again.or_else(|| self.first_step(problem, &mut normal, &x, ending));
-            let Some(Step { step, factor }) = next else { break };
+            let Some(step) = self.step(problem, &mut normal, &x, ending) else { break };
             let Some((next, after)) = self.walk(problem, &x, &step, total) else {
-                converged = is_new;
-                continue;
+                converged = true;
+                break;
             };
             let longest = next.iter().zip(&x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let is_small = longest < ending.small_step || total - after < ending.small_gain * total;
-            converged = is_small && is_new;
-            kept = (!ending.newton && !is_small).then_some(factor);
+            converged = longest < ending.small_step || total - after < ending.small_gain * total;
             (x, total) = (next, after);
             steps += 1;
         }
@@ -246,23 +232,9 @@ impl SmoothFit {
     }
 
     /// The Newton step, or the Gauss-Newton step if the matrix is not positive definite.
-    fn first_step(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], ending: Ending) -> Option<Step> {
+    fn step(&self, problem: &mut FitProblem<'_>, normal: &mut Normal, x: &[f64], ending: Ending) -> Option<Vec<f64>> {
         let newton = ending.newton.then(|| self.solve(problem, normal, x, 1.0, ending.damping)).flatten();
         newton.or_else(|| self.solve(problem, normal, x, 0.0, ending.damping))
-    }
-
-    /// The step with a factor of earlier postures.
-    fn next_step(
-        &self,
-        problem: &mut FitProblem<'_>,
-        normal: &mut Normal,
-        x: &[f64],
-        factor: BandFactor,
-    ) -> Option<Step> {
-        let mut step = self.right_side(problem, normal, x, |_, _, _| ());
-        self.hold(problem, x, &mut step);
-        factor.solve(&mut step);
-        step.iter().all(|s| s.is_finite()).then_some(Step { step, factor })
     }
 
     fn solve(
@@ -272,7 +244,7 @@ impl SmoothFit {
         x: &[f64],
         curvature: f64,
         damping: f64,
-    ) -> Option<Step> {
+    ) -> Option<Vec<f64>> {
         let n = self.unknowns;
         let mut matrix = BandMatrix::zeros(self.frames * n, 3 * n);
         let mut right = self.right_side(problem, normal, x, |first, normal, springs| {
@@ -296,9 +268,8 @@ impl SmoothFit {
         for i in (0..held.len()).filter(|&i| held[i]) {
             matrix.add(i, i, HELD * self.precision);
         }
-        let factor = matrix.factor()?;
-        factor.solve(&mut right);
-        right.iter().all(|s| s.is_finite()).then_some(Step { step: right, factor })
+        matrix.factor()?.solve(&mut right);
+        right.iter().all(|s| s.is_finite()).then_some(right)
     }
 
     /// The right-hand side at these postures; `each` gets the first row of each frame, its normal equations and its
