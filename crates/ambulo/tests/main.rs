@@ -138,6 +138,7 @@ mod recordings;
 mod refit;
 mod region_fit;
 mod residual_reduction;
+mod residual_reduction_recordings;
 mod residual_reduction_synthetic;
 mod retarget;
 mod rig;

@@ -716,10 +716,11 @@ codes! {
         "Choose the time in which all forces were measured.";
     ConsistencyResidualLeft "consistency.residual_left" Warning
         "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body \
-         weight times one metre, is left at the root."
+         weight times one metre, would be left at the root. The motion was not changed."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
-        "A coordinate was changed by more than the usual error of a motion: 2 degrees, or 30 mm at the root."
+        "A coordinate was changed by more than the usual error of a motion, 2 degrees. Where it would change by more than \
+         30 degrees, or the root by more than 30 mm, the motion was not changed."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
         "Residual reduction did not converge, so the motion was not changed."

@@ -3,7 +3,7 @@
 use super::recording::{Analysis, AnalysisSettings, Mass, MassSource};
 use super::residual::residual_within;
 use crate::dynamics::residual_reduction::{
-    ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
+    CoordinateChange, ReducedMotion, ResidualReductionError, ResidualReductionSettings, RootResidual, reduce_residuals,
 };
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
@@ -35,9 +35,13 @@ impl Adjustable {
 /// inside the window.
 const FILTER_REACH_PERIODS: f64 = 0.5;
 
+/// Largest changes of a coordinate: what is more is not an error of a recording but another motion (ours).
+const MOST_MOVED_M: f64 = 0.030;
+const MOST_TURNED_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
+
 /// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented
 /// window. Returns the analysis of the changed motion and body, and the changes; the analysis as it was where the
-/// reduction did not converge, because such a motion is neither recorded nor consistent.
+/// reduction does not converge, leaves residual forces or leads far away ([`refusal`]).
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
@@ -58,12 +62,11 @@ pub(crate) fn reduce_residual(
     };
     let mut found = Findings::default();
     let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, &mut found)?;
-    if !done.converged {
-        let message = format!(
-            "residual reduction did not converge in {}; the motion was not changed",
-            counted(done.iterations, "iteration")
+    if let Some((code, why)) = refusal(&done, &found) {
+        findings.report(
+            code,
+            why + "; the motion was not changed. hint: check the body mass and whether all forces were measured",
         );
-        findings.report(Code::ConsistencyNotSettled, message);
         return Ok((analysis, None));
     }
     found.as_slice().iter().for_each(|finding| findings.add(finding.clone()));
@@ -79,6 +82,37 @@ pub(crate) fn reduce_residual(
     let trajectory = done.trajectory.clone();
     let analysis = Analysis { trajectory, recorded, forces, residual, mass, ..analysis };
     Ok((analysis, Some(done)))
+}
+
+/// Why a change is not made: a motion that is neither recorded nor consistent, or another one.
+fn refusal(done: &ReducedMotion, found: &Findings) -> Option<(Code, String)> {
+    if !done.converged {
+        let iterations = counted(done.iterations, "iteration");
+        return Some((Code::ConsistencyNotSettled, format!("residual reduction did not converge in {iterations}")));
+    }
+    if found.has(Code::ConsistencyResidualLeft) {
+        let RootResidual { force_rms_bw, moment_rms_nm, .. } = done.residual_after;
+        let what = format!(
+            "no change within the tolerances makes the motion agree with the forces: {:.1} % of body weight and \
+             {moment_rms_nm:.1} N.m (RMS) would be left at the root",
+            100.0 * force_rms_bw
+        );
+        return Some((Code::ConsistencyResidualLeft, what));
+    }
+    let limit = |change: &CoordinateChange| match change.unit {
+        "rad" => (MOST_TURNED_RAD, "degrees", 1.0_f64.to_degrees()),
+        _ => (MOST_MOVED_M, "mm", 1e3),
+    };
+    let share = |change: &CoordinateChange| change.max / limit(change).0;
+    let farthest = done.changes.iter().max_by(|a, b| share(a).total_cmp(&share(b))).filter(|most| share(most) > 1.0)?;
+    let (most, unit, scale) = limit(farthest);
+    let what = format!(
+        "the motion agrees with the forces only if `{}` changes by up to {:.0} {unit}; {:.0} {unit} are allowed",
+        farthest.name,
+        scale * farthest.max,
+        scale * most
+    );
+    Some((Code::ConsistencyLargeChange, what))
 }
 
 /// The instrumented window (or the whole motion if it is unknown) without its ends, where the filters mix in unmeasured
