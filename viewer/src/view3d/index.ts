@@ -11,7 +11,7 @@ import { FIRST_OPTIONS, type ViewOptions } from "./options";
 import { palette } from "./palette";
 import type { SeriesReader } from "./reader";
 import { Stage } from "./stage";
-import { toggleBar, togglesOf } from "./toggles";
+import { mixtureSlider, toggleBar, togglesOf } from "./toggles";
 import { World } from "./world";
 import "../css/view3d.css";
 
@@ -57,6 +57,7 @@ class Picture implements View3D {
   readonly options: ViewOptions = { ...FIRST_OPTIONS };
   private readonly canvas = document.createElement("canvas");
   private readonly toggles: ReturnType<typeof toggleBar>;
+  private readonly mixture: HTMLElement;
   private readonly activation = activationKey();
   private readonly muscles: boolean;
   private readonly world: World;
@@ -84,9 +85,10 @@ class Picture implements View3D {
     );
     this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
     this.attach(session.name);
-    this.toggles = toggleBar(view, togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
+    this.mixture = mixtureSlider(view, (options) => this.setOptions(options));
     this.muscles = hasMuscles(view);
-    host.append(this.toggles.bar, this.activation.key);
+    host.append(this.toggles.bar, this.mixture, this.activation.key);
     this.show(this.options);
     this.recolor();
     this.world.pose(clock.time, this.place);
@@ -130,6 +132,7 @@ class Picture implements View3D {
     this.stage.dispose();
     this.canvas.remove();
     this.toggles.bar.remove();
+    this.mixture.remove();
     this.activation.key.remove();
   }
 

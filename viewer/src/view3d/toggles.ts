@@ -28,17 +28,8 @@ export function togglesOf(view: View, ghosts: boolean): Toggle[] {
   ];
 }
 
-/** Whether the figure can be shown as recorded and as changed. */
-function wasChanged(view: View): boolean {
-  return view.bodies.some((body) => body.recorded !== undefined);
-}
-
-/**
- * Buttons in a corner of the picture that show and hide its parts, and a slider where the motion was changed; call `refresh` after the
- * options changed.
- */
+/** Buttons in a corner of the picture that show and hide its parts; call `refresh` after the options changed. */
 export function toggleBar(
-  view: View,
   toggles: Toggle[],
   now: ViewOptions,
   choose: (options: Partial<ViewOptions>) => void,
@@ -50,24 +41,28 @@ export function toggleBar(
     made.title = toggle.hint;
     return [toggle, made] as const;
   });
-  const slider = element("input", {
-    type: "range",
-    min: "0",
-    max: "1",
-    step: "0.01",
-    "aria-label": "Motion of the figure: left as recorded, right as corrected",
-  });
-  slider.addEventListener("input", () => choose({ corrected: slider.valueAsNumber }));
-  const words = ["Recorded", "Corrected"].map((word) => element("span", {}, word));
-  const [recorded, corrected] = words as [HTMLElement, HTMLElement];
-  const mixture = wasChanged(view) ? [element("label", { class: "view-mixture" }, recorded, slider, corrected)] : [];
   const refresh = (): void => {
-    slider.value = String(now.corrected);
     for (const [toggle, made] of buttons) {
       made.setAttribute("aria-pressed", String(shown(toggle)));
     }
   };
   refresh();
   const attributes = { class: "view-toggles", role: "group", "aria-label": "Shown in the picture" };
-  return { bar: element("div", attributes, ...buttons.map(([, made]) => made), ...mixture), refresh };
+  return { bar: element("div", attributes, ...buttons.map(([, made]) => made)), refresh };
+}
+
+/** A slider from the recorded motion to that of the results, hidden where they are the same. */
+export function mixtureSlider(view: View, choose: (options: Partial<ViewOptions>) => void): HTMLElement {
+  const slider = element("input", {
+    type: "range",
+    min: "0",
+    max: "1",
+    step: "0.01",
+    value: "1",
+    "aria-label": "Motion of the figure: left as recorded, right as corrected",
+  });
+  slider.addEventListener("input", () => choose({ corrected: slider.valueAsNumber }));
+  const label = element("label", { class: "view-mixture" }, "Recorded", slider, "Corrected");
+  label.hidden = view.bodies.every((body) => body.recorded === undefined);
+  return label;
 }
