@@ -719,8 +719,8 @@ codes! {
          weight times one metre, would be left at the root. The motion was not changed."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
-        "A coordinate was changed by more than the usual error of a motion, 2 degrees. Where it would change by more than \
-         30 degrees, or the root by more than 30 mm, the motion was not changed."
+        "A coordinate was changed by more than the usual error of a motion, 2 degrees. Where it would change by more \
+         than 30 degrees, or the root by more than 30 mm, the motion was not changed."
         "Check mass, body and forces.";
     ConsistencyNotSettled "consistency.not_settled" Warning
         "Residual reduction did not converge, so the motion was not changed."

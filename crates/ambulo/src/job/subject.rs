@@ -109,8 +109,8 @@ fn check(job: &Job) -> Result<(), JobError> {
     match of_markers.into_iter().chain(job.of_joints()).find(|(_, given)| *given) {
         Some((field, _)) => {
             let what = format!(
-                "the {} can only be used with markers, but the file's own model and coordinates are used; expected a model, or the \
-                 built-in body, to fit the markers",
+                "the {} can only be used with markers, but the file's own model and coordinates are used; expected a \
+                 model, or the built-in body, to fit the markers",
                 field.name()
             );
             Err(JobError::new(&[field, Field::Model], what).within(job.shown()))

@@ -64,8 +64,8 @@ impl Ending {
     /// Up to rounding.
     pub(super) const EXACT: Ending =
         Ending { steps: 30, small_step: 1e-7, small_gain: 0.0, newton: true, damping: FLOOR };
-    /// Far below the noise of video: a step that gains less changes the distance of the markers by a thousandth, and the
-    /// gains of the next steps decline.
+    /// Far below the noise of video: a step that gains less changes the distance of the markers by a thousandth, and
+    /// the gains of the next steps decline.
     pub(super) const NEAR: Ending =
         Ending { steps: 24, small_step: 1e-3, small_gain: 2e-3, newton: false, damping: 1e-4 };
 }

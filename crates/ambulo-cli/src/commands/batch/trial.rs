@@ -154,7 +154,8 @@ impl Work {
         let found_mb = size_mb.map_or(0.0, |_| megabytes(&trial.files));
         if let Some(limit) = size_mb.filter(|limit| found_mb > *limit) {
             bail!(
-                "the files have {found_mb:.1} MB; expected at most {limit} MB. hint: raise the limit of size and continue the batch"
+                "the files have {found_mb:.1} MB; expected at most {limit} MB. hint: raise the limit of size and \
+                 continue the batch"
             );
         }
         // A time that no clock can count is no limit.
