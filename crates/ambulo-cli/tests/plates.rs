@@ -367,6 +367,16 @@ fn a_stance_beside_the_plates_has_predicted_forces_that_every_table_marks() {
     assert!(bench.text("out/clinical.csv").lines().next().unwrap().ends_with("ground_source_r,ground_source_l"));
     let run = bench.run(&["report", "out", "-o", "again.html"]).done();
     assert!(run.stdout.contains("again.html") && bench.text("again.html").contains("leg's loaded time"));
+    // The marks are in several tables, and in the long one once.
+    bench.run(&["convert", "out", "long.csv"]).done();
+    let long = bench.text("long.csv");
+    let cells: Vec<Vec<&str>> = long.lines().map(|line| line.split(',').collect()).collect();
+    let places: BTreeSet<[&str; 2]> = cells.iter().map(|row| [row[0], row[1]]).collect();
+    assert_eq!(places.len(), cells.len(), "each quantity has one number at a time");
+    for quantity in ["ground_source_r", "ground_source_l", "heel_r_contact", "toes_l_contact"] {
+        let own: Vec<&Vec<&str>> = cells.iter().filter(|row| row[1] == quantity).collect();
+        assert!(own.len() == table.rows() && own.iter().all(|row| row[2] == "1"), "{quantity}: {:?}", own.first());
+    }
 }
 
 #[test]

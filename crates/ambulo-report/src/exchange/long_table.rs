@@ -4,41 +4,49 @@
 //! and free moment have no rows, because the zeros of `grf.mot` there are not measurements.
 
 use crate::stage::folder_motion;
-use ambulo::model::{CoordinateKind, Model};
 use ambulo_formats::table::{Table, guarded};
-use ambulo_results::{Folder, GROUND, GROUND_MEASURED, GROUND_SD, MOMENTS, MOMENTS_BIOLOGICAL, POWERS, ResultsError};
+use ambulo_results::{
+    FOOT_CONTACT, Folder, GROUND, GROUND_MEASURED, GROUND_SD, KINEMATICS, KINEMATICS_RECORDED, MOMENTS,
+    MOMENTS_BIOLOGICAL, POWERS, ResultsError, unit_of,
+};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 const HEAD: &str = "time,quantity,unit,value\n";
-/// Tables whose column endings imply the unit, and the suffix added to the names.
-const TABLES: [(&str, &str); 6] = [
+/// Tables in addition to the motion, and the suffix added to the names of their columns.
+const TABLES: [(&str, &str); 8] = [
+    (KINEMATICS_RECORDED, "_recorded"),
     (MOMENTS, ""),
     (MOMENTS_BIOLOGICAL, "_biological"),
     (POWERS, ""),
     (GROUND, ""),
     (GROUND_SD, ""),
     (GROUND_MEASURED, "_measured"),
+    (FOOT_CONTACT, ""),
 ];
-/// Endings of columns and units.
-const UNITS: [(&str, &str); 3] = [("_moment", "N.m"), ("_force", "N"), ("_power", "W")];
 
 /// The table of a folder, or the reason why it has none.
 pub(super) fn long_table(folder: &Folder<'_>) -> Result<Result<String, String>, ResultsError> {
     let mut text = HEAD.to_owned();
     let motion = folder_motion(folder)?;
+    let body = motion.as_ref().ok().map(|motion| &motion.model);
     if let Ok(motion) = &motion {
         for (name, values) in motion.angles.columns().skip(1) {
-            let unit = unit_of_coordinate(&motion.model, name);
-            add(&mut text, &motion.angles, name, unit, |row| Some(values[row]));
+            add(&mut text, &motion.angles, name, unit_of(KINEMATICS, name, body), |row| Some(values[row]));
         }
     }
+    // Several tables mark the sources of the loads.
+    let mut known = BTreeSet::new();
     for (file, suffix) in TABLES {
         let Some(table) = folder.table(file)? else { continue };
         for (name, values) in table.columns().skip(1) {
-            let quantity = format!("{name}{suffix}");
+            let is_mark = name.starts_with("ground_source_");
+            let quantity = if is_mark { name.to_owned() } else { format!("{name}{suffix}") };
             let loaded = load(&table, name);
             let shown = |row: usize| loaded.is_none_or(|vertical| vertical[row].abs() > 0.0).then_some(values[row]);
-            add(&mut text, &table, &quantity, unit(name), shown);
+            if known.insert(quantity.clone()) {
+                add(&mut text, &table, &quantity, unit_of(file, name, body), shown);
+            }
         }
     }
     let reason = || motion.err().unwrap_or_else(|| "there are no results over time".to_owned());
@@ -54,27 +62,6 @@ fn add(text: &mut String, table: &Table, quantity: &str, unit: &str, value: impl
             let _ = writeln!(text, "{time},{quantity},{unit},{value}");
         }
     }
-}
-
-fn unit_of_coordinate(model: &Model, name: &str) -> &'static str {
-    let kind = model.coordinate(name).map(|id| model.coordinates()[id.index()].kind);
-    match kind {
-        Some(CoordinateKind::Rotation) => "deg",
-        Some(CoordinateKind::Translation) => "m",
-        Some(CoordinateKind::Coupled) => "rad",
-        None => "",
-    }
-}
-
-fn unit(name: &str) -> &'static str {
-    if let Some(rest) = name.strip_prefix("ground_") {
-        return match rest {
-            _ if rest.starts_with("torque") => "N.m",
-            _ if rest.contains("_p") => "m",
-            _ => "N",
-        };
-    }
-    UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map_or("", |(_, unit)| unit)
 }
 
 /// The vertical force that a foot must have for this column to have a meaning; `None` for columns that always have one.
