@@ -716,7 +716,7 @@ codes! {
         "Choose the time in which all forces were measured.";
     ConsistencyResidualLeft "consistency.residual_left" Warning
         "Within its tolerances the motion cannot agree with the forces: more than 1 % of body weight, or of body \
-         weight times one metre, would be left at the root. The motion was not changed."
+         weight times one metre, is left at the root."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
         "A coordinate was changed by more than the usual error of a motion, 2 degrees. Where it would change by more \

@@ -3,7 +3,7 @@
 use super::recording::{Analysis, AnalysisSettings, Mass, MassSource};
 use super::residual::residual_within;
 use crate::dynamics::residual_reduction::{
-    CoordinateChange, ReducedMotion, ResidualReductionError, ResidualReductionSettings, RootResidual, reduce_residuals,
+    CoordinateChange, ReducedMotion, ResidualReductionError, ResidualReductionSettings, reduce_residuals,
 };
 use crate::dynamics::{Workspace, inverse_with_residual};
 use crate::findings::{Code, Findings};
@@ -37,11 +37,14 @@ const FILTER_REACH_PERIODS: f64 = 0.5;
 
 /// Largest changes of a coordinate: what is more is not an error of a recording but another motion (ours).
 const MOST_MOVED_M: f64 = 0.030;
+/// Trust in the forces where the motion would change by more: they may be wrong by five times as much, 1 % of body
+/// weight (ours).
+const LESS_TRUST: f64 = 0.2;
 const MOST_TURNED_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 
 /// Changes the motion of an analysis within its noise until it agrees with the ground forces, during the instrumented
 /// window. Returns the analysis of the changed motion and body, and the changes; the analysis as it was where the
-/// reduction does not converge, leaves residual forces or leads far away ([`refusal`]).
+/// reduction does not converge or leads far away ([`refusal`]).
 ///
 /// # Errors
 /// A motion without forces, a window that is too short: see [`ResidualReductionError`].
@@ -60,9 +63,21 @@ pub(crate) fn reduce_residual(
         adjust_trunk_center: body,
         ..ResidualReductionSettings::default()
     };
-    let mut found = Findings::default();
-    let done = reduce_residuals(model, &analysis.trajectory, &loads, &reduction, &mut found)?;
-    if let Some((code, why)) = refusal(&done, &found) {
+    let reduced = |trust: f64| {
+        let settings = ResidualReductionSettings {
+            residual_force_bw: reduction.residual_force_bw / trust,
+            residual_moment_bw_m: reduction.residual_moment_bw_m / trust,
+            ..reduction
+        };
+        let mut found = Findings::default();
+        let done = reduce_residuals(model, &analysis.trajectory, &loads, &settings, &mut found)?;
+        Ok::<_, ResidualReductionError>((done, found))
+    };
+    let (mut done, mut found) = reduced(1.0)?;
+    if refusal(&done).is_some() {
+        (done, found) = reduced(LESS_TRUST)?;
+    }
+    if let Some((code, why)) = refusal(&done) {
         findings.report(
             code,
             why + "; the motion was not changed. hint: check the body mass and whether all forces were measured",
@@ -84,20 +99,11 @@ pub(crate) fn reduce_residual(
     Ok((analysis, Some(done)))
 }
 
-/// Why a change is not made: a motion that is neither recorded nor consistent, or another one.
-fn refusal(done: &ReducedMotion, found: &Findings) -> Option<(Code, String)> {
+/// Why a change is not made: the motion would be neither recorded nor consistent, or another one.
+fn refusal(done: &ReducedMotion) -> Option<(Code, String)> {
     if !done.converged {
         let iterations = counted(done.iterations, "iteration");
         return Some((Code::ConsistencyNotSettled, format!("residual reduction did not converge in {iterations}")));
-    }
-    if found.has(Code::ConsistencyResidualLeft) {
-        let RootResidual { force_rms_bw, moment_rms_nm, .. } = done.residual_after;
-        let what = format!(
-            "no change within the tolerances makes the motion agree with the forces: {:.1} % of body weight and \
-             {moment_rms_nm:.1} N.m (RMS) would be left at the root",
-            100.0 * force_rms_bw
-        );
-        return Some((Code::ConsistencyResidualLeft, what));
     }
     let limit = |change: &CoordinateChange| match change.unit {
         "rad" => (MOST_TURNED_RAD, "degrees", 1.0_f64.to_degrees()),
