@@ -4,6 +4,7 @@ use crate::files::NoSuchFile;
 use crate::hints::causes;
 use crate::printer;
 use ambulo::analysis::Stopped;
+use ambulo::simulation::scene::RunError;
 use ambulo_results::ResultsError;
 use std::io;
 
@@ -53,7 +54,9 @@ impl From<anyhow::Error> for Failure {
         let (message, hint) = printer::error_parts(&error);
         let missing = causes(&error).any(|cause| cause.is::<NoSuchFile>()).then_some(io::ErrorKind::NotFound);
         let of_system = || causes(&error).find_map(|cause| Some(cause.downcast_ref::<io::Error>()?.kind()));
-        let stopped = causes(&error).any(|cause| cause.is::<Stopped>());
+        let is_scene = |cause: &RunError| matches!(cause, RunError::Stopped { .. });
+        let stopped =
+            causes(&error).any(|cause| cause.is::<Stopped>() || cause.downcast_ref::<RunError>().is_some_and(is_scene));
         Failure { hint, system: missing.or_else(of_system), stopped, ..Failure::refused(message) }
     }
 }

@@ -171,6 +171,7 @@ import os; os._exit(0)
 LEFT_BEHIND = {
     "tune": "ambulo.tune(SCENE, FOLDER / 'gains.toml', evaluations=100000, jobs=1)",
     "reproduce": "ambulo.reproduce(FOLDER / 'paper')",
+    "simulate": "ambulo.simulate(SCENE.parent / 'pendulum.toml', duration=20000, step=1e-4)",
 }
 
 
@@ -179,7 +180,7 @@ LEFT_BEHIND = {
 def test_ctrl_c_stops_the_work_and_not_only_the_wait(call, tmp_path):
     code = f"""
 import os, pathlib, threading, time, ambulo
-SCENE, FOLDER = {str(REPOSITORY / "examples/pushed-walker.toml")!r}, pathlib.Path({str(tmp_path)!r})
+SCENE, FOLDER = pathlib.Path({str(REPOSITORY / "examples/pushed-walker.toml")!r}), pathlib.Path({str(tmp_path)!r})
 
 def working():
     for task in pathlib.Path("/proc/self/task").iterdir():

@@ -5,9 +5,10 @@ use ambulo::analysis::{AnalysisSettings, analyse};
 use ambulo::findings::{Code, Findings};
 use ambulo::model::Model;
 use ambulo::motion::{Smoother, Window, coordinates_from_table};
-use ambulo::simulation::scene::{Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
+use ambulo::simulation::scene::{RunError, Scene, SceneError, SceneFile, SceneFrame, SceneSettings};
 use ambulo::spatial::Vec3;
 use ambulo_formats::table::Table;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const G: f64 = 9.80665;
@@ -52,6 +53,17 @@ fn run(scene: &mut Scene, visit: impl FnMut(&SceneFrame<'_>)) -> Findings {
     let mut findings = Findings::default();
     scene.run(&mut findings, visit).unwrap();
     findings
+}
+
+#[test]
+fn a_visit_may_stop_the_simulation() {
+    let (mut scene, mut seen) = (example("pendulum.toml", 1.0), 0);
+    let stopped = scene.run_while(&mut Findings::default(), |_| {
+        seen += 1;
+        if seen == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(stopped, Err(RunError::Stopped { time_s }) if time_s > 0.0 && time_s < 0.9), "{stopped:?}");
+    assert_eq!(seen, 3);
 }
 
 fn body(scene: &Scene, name: &str) -> usize {

@@ -17,6 +17,7 @@ use ambulo_results::{
     Keep, OutputFile, PAGE, RunSummary, SceneExtremes, SceneInput, SceneSummary, SceneTables, TIMINGS, summary_json,
 };
 use anyhow::{Context, Result, bail};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(args: &SimulateArgs) -> Result<Completion> {
@@ -92,12 +93,13 @@ pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> 
     let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
     let mut curves = keep.includes("figures/").then(SceneCurves::default);
     let statistics = scene
-        .run(&mut findings, |frame| {
+        .run_while(&mut findings, |frame| {
             tables.add(frame);
             extremes.add(frame);
             if let Some(curves) = &mut curves {
                 curves.add(frame);
             }
+            if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .with_context(|| args.scene.display().to_string())?;
     clock.lap("simulate");

@@ -22,6 +22,7 @@ use crate::findings::{Code, Findings};
 use crate::kinematics::{BodyMotion, Posture, TrajectoryError, body_motion};
 use crate::numerics::Shown;
 use crate::spatial::{Pose, Wrench};
+use std::ops::ControlFlow;
 
 /// Times closer than this share of a step are simultaneous: for rounded times in files.
 const SAME_INSTANT: f64 = 1e-6;
@@ -77,6 +78,12 @@ pub enum RunError {
         found: String,
         /// Value of the scene.
         expected: String,
+    },
+    /// The caller asked to stop.
+    #[error("the simulation was stopped at {} s", Shown(*time_s))]
+    Stopped {
+        /// Time of the last frame [s].
+        time_s: f64,
     },
     /// Machines or controllers, whose states are not saved.
     #[error(
@@ -204,6 +211,21 @@ impl Scene {
         findings: &mut Findings,
         mut visit: impl FnMut(&SceneFrame<'_>),
     ) -> Result<RunStatistics, RunError> {
+        self.run_while(findings, |frame| {
+            visit(frame);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// As [`Scene::run`], until a visit asks to stop.
+    ///
+    /// # Errors
+    /// As [`Scene::run`]; [`RunError::Stopped`].
+    pub fn run_while(
+        &mut self,
+        findings: &mut Findings,
+        mut visit: impl FnMut(&SceneFrame<'_>) -> ControlFlow<()>,
+    ) -> Result<RunStatistics, RunError> {
         self.check_length()?;
         let mut statistics = RunStatistics::default();
         let mut impacts = Vec::new();
@@ -228,14 +250,14 @@ impl Scene {
     fn show_end(
         &self,
         impacts: Vec<(f64, ContactForce)>,
-        visit: &mut impl FnMut(&SceneFrame<'_>),
+        visit: &mut impl FnMut(&SceneFrame<'_>) -> ControlFlow<()>,
     ) -> Result<(), RunError> {
         let (mut ahead, mut unseen) = (self.clone(), Findings::default());
         ahead.prepare(&mut unseen);
         let before = ahead.state.clone();
         if ahead.advance(&mut unseen).is_err() {
-            visit(&SceneFrame { scene: self, forces: None, impacts, energy: energy(&self.world, &self.state) });
-            return Ok(());
+            let energy = energy(&self.world, &self.state);
+            return self.seen(visit(&SceneFrame { scene: self, forces: None, impacts, energy }));
         }
         ahead.show(&before, impacts, visit)
     }
@@ -245,7 +267,7 @@ impl Scene {
         &mut self,
         before: &WorldState,
         impacts: Vec<(f64, ContactForce)>,
-        visit: &mut impl FnMut(&SceneFrame<'_>),
+        visit: &mut impl FnMut(&SceneFrame<'_>) -> ControlFlow<()>,
     ) -> Result<(), RunError> {
         let begins = self.steps == 1 && !self.starts_early;
         let (settings, workspace) = (&self.settings, &self.workspace);
@@ -253,9 +275,17 @@ impl Scene {
         let Row { state, forces } = step.row(&mut self.probe)?;
         let after = std::mem::replace(&mut self.state, state);
         let energy = energy(&self.world, &self.state);
-        visit(&SceneFrame { scene: self, forces: Some(forces), impacts, energy });
+        let going = visit(&SceneFrame { scene: self, forces: Some(forces), impacts, energy });
         self.state = after;
-        Ok(())
+        self.seen(going)
+    }
+
+    /// What follows from the answer of the caller to a frame.
+    fn seen(&self, going: ControlFlow<()>) -> Result<(), RunError> {
+        match going {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(RunError::Stopped { time_s: self.state.time_s }),
+        }
     }
 
     /// Whether all figures that walk by their own torques have fallen some time ago.
