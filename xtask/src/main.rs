@@ -3,6 +3,7 @@
 //! This crate has no dependencies, so its commands start at once. Commands that need the library are in the crate
 //! `xtask-measure`, which is built with optimisation and started from here.
 
+mod baseline;
 mod batch_cost;
 mod build_time;
 mod check;
@@ -51,13 +52,16 @@ usage: cargo xtask <command>
   command-cost      processor time of `ambulo forces` against an earlier revision, and the time until the command starts  [--baseline REV]
   keypoint-cost     measure processor time and memory per frame of `ambulo forces` on keypoints of video, and an hour of them  [PROGRAM]
   batch-cost        measure processor time, memory and bytes per trial of `ambulo batch`, and print what 70 h and 288 h of motion cost
-                    [--kills: and compute 10,000 trials with ten kills]
+                    [--kills: and compute 10,000 trials with ten kills] [--baseline REV: ratios to another revision]
   stream-cost       measure latency, processor time and memory of `ambulo stream` from end to end, in real time  [--seconds S]
-                    [--hours H: and the memory over so many hours of motion, as fast as they are taken]
+                    [--hours H: and the memory over so many hours of motion, as fast as they are taken] [--baseline REV]
   bench             time inverse dynamics, synthetic walks, the stages of the main job and the `ambulo` command; writes target/bench.csv
+                    [--baseline REV: ratios to another revision, measured in the same run]
   bench-markers     time marker fitting and compare it with OpenSim's  [--write: docs/measured/BENCHMARKS_MARKERS.md]
                     [--recordings [NAME]: instead fit the clean recordings frame by frame and all frames together]
+                    [--baseline REV]
   bench-simulation  time and check forward simulation, ours and others'  [--write: docs/measured/BENCHMARKS.md] [--without-peers]
+                    [--baseline REV]
   peers             time other engines on the same model and motion  [--env DIR] [--scripts DIR]
   simulators        time and check other engines in forward simulation  [--env DIR] [--data DIR] [--golden FILE] ..
   oracle-c3d        compare our C3D reader with ezc3d on every file below a folder  [FOLDER] [--env DIR]
@@ -147,6 +151,7 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (command, rest) = words.split_first().map_or(("help", &[][..]), |(first, rest)| (first.as_str(), rest));
     let done = match (command, rest) {
+        _ if baseline::is_asked(&words) => baseline::run(&words),
         ("check", _) => check::run(rest),
         ("build-time", _) => build_time::run(rest),
         ("measured", _) => measured::run(rest),
