@@ -73,7 +73,7 @@ test("poses are interpolated along great arcs and missing in gaps", () => {
   assert.equal(motion.at(1.5, place, turn), false);
 });
 
-test("a pose between the recorded and the corrected motion is nearer to neither than asked for", () => {
+test("a pose half way between the recorded and the corrected motion is equally far from both", () => {
   const numbers = new SampleNumbers();
   const half = Math.SQRT1_2;
   const of = (value: number) => numbers.add([value, value]);

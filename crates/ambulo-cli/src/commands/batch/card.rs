@@ -1,4 +1,5 @@
-//! `README.md` beside the tables describes each table and column to readers who did not run the batch.
+//! The card of a batch, the file `README.md` beside the tables: what each table and column means, for readers who did not
+//! run the batch.
 
 use super::ledger::Description;
 use super::rows_of;
