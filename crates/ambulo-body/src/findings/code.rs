@@ -719,9 +719,16 @@ codes! {
          weight times one metre, is left at the root."
         "Use wider tolerances or another mass, or check for forces that were not measured.";
     ConsistencyLargeChange "consistency.large_change" Warning
-        "A coordinate was changed by more than the usual error of a motion, 2 degrees. Where it would change by more \
-         than 30 degrees, or the root by more than 30 mm, the motion was not changed."
+        "A coordinate was changed by more than the usual error of a motion, 2 degrees."
         "Check mass, body and forces.";
+    ConsistencyForcesDoubted "consistency.forces_doubted" Note
+        "Motion and forces agree within the limits of a change only if the forces may be wrong by two or five times \
+         the usual accuracy of plates, 0.2 % of body weight."
+        "Check the body mass and whether all forces were measured.";
+    ConsistencyMotionKept "consistency.motion_kept" Warning
+        "The motion agrees with the forces only if a joint turned by more than 30 degrees, or a body moved by more \
+         than 30 mm, so it was not changed."
+        "Check the body mass and whether all forces were measured.";
     ConsistencyNotSettled "consistency.not_settled" Warning
         "Residual reduction did not converge, so the motion was not changed."
         "Check mass, body and forces; wider tolerances may help.";
