@@ -20,6 +20,7 @@ use crate::model::marker_set::{Landmark, NamedMarker, Segment};
 use crate::motion::MarkerRecording;
 use crate::numerics::median;
 use crate::spatial::Vec3;
+use std::collections::BTreeSet;
 
 /// A pair votes if its markers are at least this far apart sideways [m]: feet of a narrow gait do not.
 pub(super) const APART_M: f64 = 0.03;
@@ -88,11 +89,12 @@ pub(super) fn exchanged_back(
     Some(with_exchanged(paths, &pairs))
 }
 
-/// Exchanges the positions of every pair. Markers without a counterpart on the other side keep their positions.
+/// Exchanges the positions of every pair, and of markers without a known meaning whose names are a pair. Markers
+/// without a counterpart on the other side keep their positions.
 fn with_exchanged(paths: &LandmarkPaths<'_>, pairs: &[Pair<'_>]) -> MarkerRecording {
     let mut recording = paths.recording.clone();
-    for Pair { numbers: [right, left], .. } in pairs {
-        exchange(&mut recording, *right, *left);
+    for [right, left] in pairs.iter().map(|pair| pair.numbers).chain(unknown_pairs(paths, pairs)) {
+        exchange(&mut recording, right, left);
     }
     let is_alone = |marker: &&NamedMarker| {
         let on_trunk = matches!(marker.definition.segment, Segment::Pelvis | Segment::Torso);
@@ -104,6 +106,28 @@ fn with_exchanged(paths: &LandmarkPaths<'_>, pairs: &[Pair<'_>]) -> MarkerRecord
         }
     }
     recording
+}
+
+/// Pairs of markers without a known meaning, as numbers of the recording: names that differ as those of a known pair
+/// do, by an R and an L in one place.
+fn unknown_pairs(paths: &LandmarkPaths<'_>, pairs: &[Pair<'_>]) -> Vec<[usize; 2]> {
+    let known_places = pairs.iter().filter_map(|Pair { right, left, .. }| side_letter(&right.name, &left.name));
+    let known_places: BTreeSet<usize> = known_places.collect();
+    let is_known = |name: &str| paths.recognised.markers.iter().any(|marker| marker.name == name);
+    let markers = || paths.recording.markers.iter().enumerate().filter(|(_, path)| !is_known(&path.name));
+    let left_of = |right: &str| {
+        let differs = |left: &str| side_letter(right, left).is_some_and(|place| known_places.contains(&place));
+        markers().find(|(_, path)| differs(&path.name)).map(|(number, _)| number)
+    };
+    markers().filter_map(|(number, path)| Some([number, left_of(&path.name)?])).collect()
+}
+
+/// The place of the only letter in which the names of a right and a left marker differ, an R and an L.
+fn side_letter(right: &str, left: &str) -> Option<usize> {
+    let mut apart = right.bytes().zip(left.bytes()).enumerate().filter(|(_, (a, b))| a != b);
+    let (place, letters) = apart.next()?;
+    let are_sides = matches!(letters, (b'R', b'L') | (b'r', b'l'));
+    (are_sides && right.len() == left.len() && apart.next().is_none()).then_some(place)
 }
 
 /// Exchanges the positions of two markers.
