@@ -53,6 +53,7 @@ pub mod internals {
     pub use crate::kinematics::marker_fit::rows::MarkerRows;
     pub use crate::kinematics::pose_fit::joint_angles::{JointAngles, turn_about};
     pub use crate::model::marker_set::name_index::{NameIndex, Readings, RecordedName};
+    pub use crate::model::neck_and_wrists::{FreeParts, with_neck_and_wrists};
     pub use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, reshaped};
     pub use crate::motion::force_plate::units::{INCH_M, KILOPOND_N, POUND_N, moment_nm};
     pub use crate::motion::skeleton::channel_angles::{angle_between, angles, rotation};

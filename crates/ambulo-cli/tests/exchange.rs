@@ -401,7 +401,7 @@ fn messages_are_short_and_not_repeated() {
     }
     let run =
         bench.run(&["forces", "demo/input/walk.c3d", "--static", "demo/input/standing.c3d", "-v", "-o", "out"]).done();
-    run.reports(&["40 markers were given to the segments", "and 28 more", "4 only in the recording"]);
+    run.reports(&["40 markers were given to the segments", "and 28 more"]);
     assert_eq!(run.stderr.matches("ORIGIN of every plate").count(), 1, "{}", run.stderr);
     assert!(!run.stderr.contains("times)") && !run.stderr.contains("Extra29"), "{}", run.stderr);
 }

@@ -118,6 +118,7 @@ mod marker_tasks;
 mod motion_bandwidth;
 mod mujoco_parity;
 mod muscles;
+mod neck_and_wrists;
 mod opensim_joints;
 mod opensim_parity;
 mod optimal;

@@ -414,6 +414,9 @@ codes! {
     CalibrationTrunkUpright "calibration.trunk_upright" Note
         "The trunk has no marker; it is assumed upright above the pelvis."
         "Add markers on the trunk.";
+    CalibrationArmsSwing "calibration.arms_swing" Note
+        "An arm has too few markers; it is assumed to swing against the leg of its side."
+        "Add markers on shoulders, elbows and wrists.";
     KeypointsNoise "keypoints.noise" Note
         "The recording has keypoints of video instead of markers; their noise was estimated, and positions far from \
          their paths were left out."

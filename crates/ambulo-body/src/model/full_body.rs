@@ -17,8 +17,9 @@
 //! | `forearm_s` (+ hand) | `elbow_flex_s`, `pro_sup_s` (+ pronation)                                    | z, y              |
 //!
 //! There is no talus: ankle and subtalar axes intersect in the ankle centre, and the calcaneus rotates about both. The
-//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Hand and wrist
-//! are rigid with the forearm. With tables that do not split the trunk there is no lumbar joint; the root is `torso`.
+//! subtalar axis is the axis of Gait2392's `subtalar_r`, (0.787, 0.605, -0.121): 37° up and 9° inwards. Head and
+//! hands are rigid with trunk and forearm (`neck_and_wrists` adds their joints). With tables that do not split the
+//! trunk there is no lumbar joint; the root is `torso`.
 
 use super::anthropometry::{Build, BuildError, Human};
 use super::{

@@ -15,6 +15,7 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
+pub(crate) mod neck_and_wrists;
 #[doc(hidden)]
 pub mod osim_frame;
 #[doc(hidden)]

@@ -116,6 +116,16 @@ impl Inertia {
         Inertia { mass, center, about_center: self.about(center) + other.about(center) }
     }
 
+    /// This body without a part of it, in the same frame (parallel-axis theorem): the inverse of [`Inertia::joined`].
+    ///
+    /// # Errors
+    /// A part that is heavier than the body.
+    pub(crate) fn without(&self, part: &Inertia) -> Result<Inertia, InertiaError> {
+        let mass = self.mass - part.mass;
+        let center = (self.center * self.mass - part.center * part.mass) / mass;
+        Inertia::new(mass, center, self.about(center) - part.about(center))
+    }
+
     /// Inertia about any point [kg.m²]: I + m (|d|² 1 - d dᵀ).
     fn about(&self, point: Vec3) -> Mat3 {
         let d = self.center - point;

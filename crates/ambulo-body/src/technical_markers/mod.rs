@@ -30,6 +30,7 @@ mod segment_motion;
 pub use computed::computed_points;
 
 use crate::model::marker_set::{NamedMarker, Segment};
+use crate::model::neck_and_wrists::{HEAD as HEAD_BODY, hand};
 use crate::model::{BodyId, Marker, Model, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
@@ -178,6 +179,9 @@ impl Search<'_> {
     fn placed(&self, name: &str, own: Option<(BodyId, f64)>) -> Option<Placed> {
         let model = self.body.model;
         let of_sets = Segment::all().filter_map(|(segment, side)| Some((segment.body(model, side)?, segment)));
+        let hands = Side::BOTH.map(|side| (model.body(&hand(side)), Segment::Forearm));
+        let parts = [(model.body(HEAD_BODY), Segment::Torso)].into_iter().chain(hands);
+        let of_sets = of_sets.chain(parts.filter_map(|(body, segment)| Some((body?, segment))));
         let on = |(body, segment): (BodyId, Segment)| {
             self.on(body, name, self.weight(segment, body)).filter(|placed| self.is_near(placed, segment))
         };

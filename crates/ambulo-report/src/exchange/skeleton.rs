@@ -21,13 +21,14 @@ const FIXED: f64 = 1e-9;
 
 /// Bodies of trunk and arms in the usual models, and the joints that animation programs name after what they carry;
 /// `{}` is Right or Left.
-const NAMES: [(&str, &str); 6] = [
+const NAMES: [(&str, &str); 7] = [
     ("pelvis", "Hips"),
     ("torso", "Spine"),
     ("humerus", "{}Arm"),
     ("ulna", "{}ForeArm"),
     ("forearm", "{}ForeArm"),
     ("hand", "{}Hand"),
+    ("head", "Head"),
 ];
 
 /// The motion as a skeleton.

@@ -18,7 +18,7 @@ use crate::findings::{Code, Findings};
 use crate::functional::{CrossTalk, knee_angles};
 use crate::ground::foot_motion::{FootMotion, foot_motion_of_landmarks};
 use crate::ground::plates::{FeetInMotion, FeetOnPlates, feet_in_motion_on_plates, plates_under_moving_feet};
-use crate::kinematics::calibration::assume_upright_trunk;
+use crate::kinematics::calibration::{assume_swinging_arms, assume_upright_trunk};
 use crate::kinematics::keypoints::{KeypointReport, Keypoints};
 use crate::kinematics::marker_fit::{
     FitSettings, FollowedKeypoints, JointLimits, MarkerFit, fit_keypoints, fit_own_markers,
@@ -128,6 +128,7 @@ pub(crate) fn fit_body_to_markers(
             cross_talk = knee_axes::cross_talk(&subject, &followed, findings);
         }
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
+        assume_swinging_arms(&subject.model, &mut fit.motion, findings);
     }
     use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
     progress.end(Stage::Markers)?;
@@ -272,6 +273,7 @@ impl PosedTrial {
         let recording = PoseRecording { poses: &poses, points: &points, longest_gap_s: settings.longest_gap_s };
         let mut fit = fit_poses(&subject.model, &recording, findings);
         assume_upright_trunk(&subject.model, &mut fit.motion, findings);
+        assume_swinging_arms(&subject.model, &mut fit.motion, findings);
         use_defaults_without_markers(&subject.model, &mut fit.motion, findings);
         progress.end(Stage::Markers)?;
         let on_floor = OnFloor { axes, plates, points: &points, set: None, plate_feet };

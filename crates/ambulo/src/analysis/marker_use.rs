@@ -14,6 +14,8 @@ use crate::technical_markers::{MarkedBody, computed_points, technical_markers};
 
 /// Of the markers of a motion, a body should follow at least this share [1].
 pub const LEAST_MARKER_SHARE: f64 = 0.6;
+/// A body that follows this share by name, and every thigh and shank, needs no others [1].
+const ENOUGH_BY_NAME: f64 = 0.95;
 /// Markers that show the pose of a segment without markers of the joint at its end.
 const OF_A_POSE: usize = 3;
 /// Weight of markers that define a joint.
@@ -80,13 +82,13 @@ impl Subject {
         Subject { model, weights, ..self }
     }
 
-    /// Whether markers with known names show the body: most of those that were recorded, and every thigh and shank.
-    /// Further markers would then change little, and the same person would have another body in a trial without them.
+    /// Whether markers with known names show the body: nearly all of those that were recorded, and every thigh and
+    /// shank.
     fn is_shown_by(&self, moving: &MarkerRecording, named: &[NamedMarker]) -> bool {
         let recorded = recorded(moving, named);
         let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
         let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
-        followed.len() as f64 >= LEAST_MARKER_SHARE * recorded.len() as f64
+        followed.len() as f64 >= ENOUGH_BY_NAME * recorded.len() as f64
             && hardly_shown(self, &followed).next().is_none()
     }
 }

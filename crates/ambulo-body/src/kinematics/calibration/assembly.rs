@@ -4,20 +4,19 @@ use super::axes::{about_x, in_frame, median_point};
 use super::feet::Feet;
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::legs::Legs;
+use super::neck_and_wrists::{ENOUGH_ON_TRUNK, markers_of_trunk, neck, on_its_body};
 use super::pelvis::Pelvis;
 use super::report::{CalibrationReport, MarkerPlacement, SegmentScale};
 use super::trunk::{Trunk, is_head};
 use super::{Calibrated, CalibrationError};
 use crate::model::anthropometry::{Dimensions, Human};
 use crate::model::marker_set::{Landmark, NamedMarker, Segment};
+use crate::model::neck_and_wrists::{HEAD, hand};
 use crate::model::subject_shape::{SegmentShape, SubjectShape, reshaped};
-use crate::model::{BySide, Marker, Side};
+use crate::model::{BodyId, BySide, Marker, Side};
 use crate::numerics::counted;
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
-
-/// Number of markers on the trunk that makes those of the head unnecessary.
-const ENOUGH_ON_TRUNK: usize = 3;
 
 /// Smallest weight of a marker that determines the motion of the trunk.
 const RELIABLE: f64 = 0.05;
@@ -41,7 +40,7 @@ pub(super) fn assemble(
 ) -> Result<Calibrated, CalibrationError> {
     let (mut markers, mut weights, mut places) = (Vec::new(), BTreeMap::new(), Vec::new());
     let mut unused = Vec::new();
-    for (named, number) in chosen(trajectories, parts, &mut unused) {
+    for (named, number) in chosen(trajectories, generic, parts, &mut unused) {
         match placed(trajectories, frames, generic, parts, named, number) {
             Some((marker, place)) => {
                 markers.push(marker);
@@ -90,15 +89,15 @@ fn use_shoulders_if_needed(trajectories: &LandmarkTrajectories<'_>, weights: &mu
     }
 }
 
-/// The markers that are used: those of the head only if the trunk has few others.
+/// The markers that are used: those of a head that does not move on its own only if the trunk has few others.
 fn chosen<'a>(
     trajectories: &LandmarkTrajectories<'a>,
+    generic: &Human,
     parts: &Parts<'_>,
     unused: &mut Vec<&'a str>,
 ) -> Vec<(&'a NamedMarker, usize)> {
-    let is_trunk = |m: &NamedMarker| m.definition.segment == Segment::Torso && !is_head(m.definition.landmark);
-    let on_trunk = trajectories.markers.iter().filter(|(m, _)| is_trunk(m)).count();
-    let drops_head = on_trunk >= ENOUGH_ON_TRUNK && parts.trunk.poses.iter().any(Option::is_some);
+    let has_trunk = markers_of_trunk(trajectories) >= ENOUGH_ON_TRUNK && parts.trunk.poses.iter().any(Option::is_some);
+    let drops_head = has_trunk && generic.model.body(HEAD).is_none();
     let mut list = Vec::new();
     for &(marker, number) in &trajectories.markers {
         if drops_head && is_head(marker.definition.landmark) {
@@ -148,6 +147,7 @@ fn placed(
     if named.definition.landmark == Some(Landmark::Acromion) {
         location.y -= parts.trunk.lift;
     }
+    let (body, location) = on_its_body(&generic.model, parts.trunk, &named.definition, (body, location));
     let body_name = generic.model.bodies()[body.index()].name.clone();
     let place = MarkerPlacement { name: named.name.clone(), body: body_name, rms_m, frames: points.len() };
     Some((Marker { name: named.name.clone(), body: Some(body), location, fixed: false }, place))
@@ -162,8 +162,9 @@ fn ball(d: &Dimensions, feet: &Feet, side: Side) -> Vec3 {
 fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: &mut Vec<String>) -> SubjectShape {
     let d = &generic.dimensions;
     let mut segments = SegmentShape::of(generic);
-    let mut set = |segment: Segment, side: Option<Side>, shape: SegmentShape| {
-        if let Some(body) = segment.body(&generic.model, side) {
+    let of = |segment: Segment, side: Side| segment.body(&generic.model, Some(side));
+    let mut set = |body: Option<BodyId>, shape: SegmentShape| {
+        if let Some(body) = body {
             segments[body.index()] = shape;
         }
     };
@@ -173,28 +174,31 @@ fn shape(generic: &Human, parts: &Parts<'_>, markers: Vec<Marker>, assumptions: 
         child_from_joint: Pose::IDENTITY,
     };
     let lumbar = Vec3::y() * d.lumbar_height.unwrap_or(0.0);
-    set(Segment::Torso, None, plain(parts.trunk.factor, lumbar));
+    set(Segment::Torso.body(&generic.model, None), plain(parts.trunk.factor, lumbar));
+    if let Some(head) = generic.model.body(HEAD) {
+        set(Some(head), plain(parts.trunk.factor, neck(&generic.model, head, parts.trunk)));
+    }
     for side in Side::BOTH {
         let hip = parts.pelvis.hip_in_body(side);
         let (thigh, shank, varus) =
             parts.legs[side].as_ref().map_or((d.thigh, d.shank, 0.0), |l| (l.thigh, l.shank, l.varus));
         let foot = &parts.feet[side];
-        set(Segment::Femur, Some(side), plain(thigh / d.thigh, hip));
+        set(of(Segment::Femur, side), plain(thigh / d.thigh, hip));
         let knee = plain(shank / d.shank, Vec3::y() * -thigh);
         let varus = Pose { rotation: about_x(varus).transpose(), translation: Vec3::zeros() };
-        set(Segment::Tibia, Some(side), SegmentShape { child_from_joint: varus, ..knee });
+        set(of(Segment::Tibia, side), SegmentShape { child_from_joint: varus, ..knee });
         let ankle = Pose { rotation: foot.tibia_from_joint, translation: Vec3::y() * -shank };
         let offset = Pose { rotation: foot.joint_from_foot.transpose(), translation: Vec3::zeros() };
         set(
-            Segment::Foot,
-            Some(side),
+            of(Segment::Foot, side),
             SegmentShape { factor: foot.factor, parent_from_joint: ankle, child_from_joint: offset },
         );
-        set(Segment::Toes, Some(side), plain(foot.factor, ball(d, parts.feet, side)));
+        set(of(Segment::Toes, side), plain(foot.factor, ball(d, parts.feet, side)));
         let (upper, lower) =
             parts.trunk.arms[side].as_ref().map_or((d.upper_arm, d.forearm), |arm| (arm.upper, arm.lower));
-        set(Segment::Humerus, Some(side), plain(upper / d.upper_arm, parts.trunk.shoulders[side]));
-        set(Segment::Forearm, Some(side), plain(lower / d.forearm, Vec3::y() * -upper));
+        set(of(Segment::Humerus, side), plain(upper / d.upper_arm, parts.trunk.shoulders[side]));
+        set(of(Segment::Forearm, side), plain(lower / d.forearm, Vec3::y() * -upper));
+        set(generic.model.body(&hand(side)), plain(lower / d.forearm, Vec3::y() * -lower));
     }
     let mut locked = Vec::new();
     if parts.pelvis.is_line {
@@ -246,7 +250,7 @@ fn scales(generic: &Human, parts: &Parts<'_>, shape: &SubjectShape) -> Vec<Segme
         let leg = || side.is_some_and(|side| parts.legs[side].is_some());
         match name.split('_').next().unwrap_or_default() {
             "pelvis" => false,
-            "torso" => parts.trunk.poses.iter().any(Option::is_some),
+            "torso" | HEAD => parts.trunk.poses.iter().any(Option::is_some),
             "femur" | "tibia" => leg(),
             "calcn" | "toes" => side.is_some_and(|side| parts.feet[side].poses.iter().any(Option::is_some)),
             _ => side.is_some_and(|side| parts.trunk.arms[side].is_some()),

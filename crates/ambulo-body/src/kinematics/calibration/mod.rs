@@ -15,6 +15,7 @@
 //! | foot | upright while flat on the ground; x from heel to toe |
 //! | trunk | usual positions of the landmarks fitted to the visible ones, then y from the lumbar joint to the shoulders |
 //! | arm | elbow half its width inside the lateral marker, along the normal of the plane of shoulder, elbow and wrist |
+//! | head, hands | bodies of their own where markers show how they move (`neck_and_wrists`) |
 //!
 //! The hinge of the knee rotates about z of the thigh; the other rotation of the shank (varus) is a constant part of
 //! the joint. The hinge of the ankle lies along the line of the malleoli and includes the tibial torsion; the other
@@ -26,7 +27,7 @@
 //! Sources: hip centres: `hip_centre`;
 //! Kadaba 1990 and Davis 1991 for the construction with wands, as in Plug-in-Gait (unverified). Tilt of the standing
 //! pelvis: see [`STANDING_TILT`](crate::model::full_body::STANDING_TILT).
-//! Not handled: wrists and heads that move; braces.
+//! Not handled: shoulder girdles that move; braces.
 //! Pinned by: tests/calibration.rs
 
 mod assembly;
@@ -36,6 +37,7 @@ mod feet;
 mod hip_centre;
 mod landmark_trajectories;
 pub(crate) mod legs;
+mod neck_and_wrists;
 mod pelvis;
 mod person;
 mod reference;
@@ -53,12 +55,13 @@ pub use pelvis::hip_centres;
 pub use person::{BodyMeasurements, JointCentres, KneeAxis, PersonMeasurements};
 pub use reference::Trial;
 pub use report::{CalibrationReport, HipCentres, MarkerPlacement, SegmentScale};
-pub use upright::assume_upright_trunk;
+pub use upright::{assume_swinging_arms, assume_upright_trunk};
 
 use crate::findings::{Code, Findings};
 use crate::model::anthropometry::{Build, Human};
 use crate::model::full_body::full_body;
 use crate::model::marker_set::RecognisedMarkers;
+use crate::model::neck_and_wrists::with_neck_and_wrists;
 use crate::motion::MarkerRecording;
 use landmark_trajectories::LandmarkTrajectories;
 use std::collections::BTreeMap;
@@ -135,6 +138,7 @@ pub fn calibrate(
     let observed = feet::Observed { trial, keypoints: pelvis.is_line };
     let feet = feet::find(&trajectories, &frames, observed, &legs, &generic.dimensions, &mut assumptions);
     let trunk = trunk::find(&trajectories, &frames, &pelvis, &generic.dimensions, person, &mut assumptions);
+    let generic = with_neck_and_wrists(generic, neck_and_wrists::shown(&trajectories, &frames, &pelvis, &trunk))?;
     let parts = assembly::Parts { pelvis: &pelvis, legs: &legs, feet: &feet, trunk: &trunk };
     let mut calibrated = assembly::assemble(&trajectories, &frames, &generic, &parts, assumptions)?;
     // Points of video are joint centres, which have their places.

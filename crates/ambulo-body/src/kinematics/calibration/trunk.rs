@@ -69,8 +69,8 @@ pub(super) fn find(
     let fitted = finder.fit(pelvis);
     if fitted.iter().flatten().count() < LEAST_FRAMES.min(frames.len()) {
         assumptions.push(
-            "trunk and arms have too few markers; their size is from the segment table, the trunk is assumed upright \
-             with hanging arms"
+            "trunk and arms have too few markers; their size is from the segment table, and the trunk is assumed \
+             upright"
                 .to_owned(),
         );
         return finder.unmeasured();
@@ -87,9 +87,7 @@ pub(super) fn find(
         let raised = trunk.shoulders[side] + Vec3::y() * trunk.lift;
         trunk.arms[side] = finder.arm(&trunk.poses, raised, side);
         if trunk.arms[side].is_none() {
-            assumptions.push(format!(
-                "the {side} arm has too few markers; its size is from the segment table, and it is assumed to hang"
-            ));
+            assumptions.push(format!("the {side} arm has too few markers; its size is from the segment table"));
         }
     }
     trunk

@@ -1,8 +1,8 @@
-//! Default posture of a trunk without markers.
+//! Trunk and arms without markers: an upright trunk, and arms that swing against the legs.
 
 use super::axes::{about_x, about_y, about_z, angles_zxy, from_y_x};
 use crate::findings::{Code, Findings};
-use crate::model::{Body, CoordinateId, Displacement, Drive, Model, Movement};
+use crate::model::{Body, CoordinateId, Displacement, Drive, Model, Movement, Side};
 use crate::motion::Motion;
 use crate::spatial::{Mat3, Vec3};
 
@@ -12,9 +12,46 @@ const LUMBAR: [(Movement, f64); 3] =
 const PELVIS: [(Movement, f64); 3] =
     [(Movement::PelvicTilt, -1.0), (Movement::PelvicObliquity, -1.0), (Movement::PelvicRotation, 1.0)];
 
+/// Flexion of a swinging shoulder over half the difference of the flexion of the hips.
+const SWING: f64 = 0.5;
+
+/// Lets arms without markers swing as in walking, each against the leg of its side: the shoulder flexes by
+///
+///   α_s = -k (φ_s - φ_o) / 2     φ_s, φ_o: flexion of the hip of this side and of the other one
+///
+/// Legs that move together, as in a squat, leave the arms hanging. Other joints of the arm keep their default values.
+/// An arm with a joint that has a column is not changed.
+pub fn assume_swinging_arms(model: &Model, motion: &mut Motion, findings: &mut Findings) {
+    let hip = |side: Side| {
+        let (id, sign) = model.anatomy().coordinate(Movement::HipFlexion, Some(side))?;
+        motion.column(id).map(|column| column.iter().map(|angle| sign * angle).collect::<Vec<f64>>())
+    };
+    let (Some(right), Some(left)) = (hip(Side::Right), hip(Side::Left)) else { return };
+    let mut swing: Vec<String> = Vec::new();
+    for (side, towards_left) in [(Side::Right, 1.0), (Side::Left, -1.0)] {
+        let arm = ["arm_flex", "arm_add", "arm_rot"].map(|stem| format!("{stem}_{}", side.letter()));
+        let ids = arm.each_ref().map(|name| model.coordinate(name));
+        let is_open = |id: &Option<CoordinateId>| id.is_some_and(|id| motion.column(id).is_none());
+        let [Some(flexion), ..] = ids else { continue };
+        if !ids.iter().all(is_open) {
+            continue;
+        }
+        let angle = |(right, left): (&f64, &f64)| towards_left * 0.5 * SWING * (left - right);
+        motion.columns[flexion.index()] = Some(right.iter().zip(&left).map(angle).collect());
+        swing.push(format!("`{}`", arm[0]));
+    }
+    if !swing.is_empty() {
+        let message = format!(
+            "arms were not recorded: they are assumed to swing against the legs ({}, {SWING} times half the difference \
+             of the hip angles)",
+            swing.join(", ")
+        );
+        findings.report(Code::CalibrationArmsSwing, message);
+    }
+}
+
 /// Sets a trunk without markers upright above the pelvis, facing the same way. A trunk with markers, or one that is
-/// locked in the model, is not changed. Other joints without a column, such as those of the arms, keep their
-/// default values (hanging arms).
+/// locked in the model, is not changed.
 pub fn assume_upright_trunk(model: &Model, motion: &mut Motion, findings: &mut Findings) {
     let Some(lumbar) = ids(model, LUMBAR) else { return };
     let Some(pelvis) = ids(model, PELVIS) else { return };

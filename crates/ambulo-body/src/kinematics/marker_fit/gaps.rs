@@ -293,13 +293,13 @@ fn bridge_all(
             let length_s = (end - start) as f64 * step_s;
             let is_inside = start > 0 && end < count;
             let is_long = length_s > longest_s + 0.5 * step_s;
-            if is_inside && !(is_long && problem.on_arm[u]) {
+            if is_inside && !(is_long && problem.on_arm_or_head[u]) {
                 fill_gap(&mut values, &known, start, end, step_s);
             } else {
                 draw(&mut values, start, end);
             }
             bridge_gaps(&mut states[u..], unknowns, [start, end, count], longest_s + 0.5 * step_s, step_s);
-            if problem.on_arm[u] {
+            if problem.on_arm_or_head[u] {
                 hold_arm(&mut states[u..], unknowns, start..end);
             }
             (start..end).for_each(|f| springs[f * unknowns + u] = (values[f], stiffness(length_s)));

@@ -8,6 +8,7 @@ use super::solve::{Bounds, Outcome, STEPS, Solver};
 use super::tasks::{HeldUnknown, held_unknowns};
 use super::tree::MarkerTree;
 use crate::findings::{Code, Findings};
+use crate::model::neck_and_wrists::HEAD;
 use crate::model::{CoordinateId, Drive, Function, Model, Region};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::Vec3;
@@ -29,8 +30,8 @@ pub(super) struct FitProblem<'a> {
     /// The recorded markers, in the same order.
     pub(super) paths: Vec<Cow<'a, MarkerPath>>,
     pub(super) weights: Vec<f64>,
-    /// Whether each unknown moves an arm.
-    pub(super) on_arm: Vec<bool>,
+    /// Whether each unknown moves an arm, or a head that is a body of its own.
+    pub(super) on_arm_or_head: Vec<bool>,
     pub(super) times: Cow<'a, [f64]>,
     /// Coordinates that are functions of time.
     prescribed: Vec<(usize, Function)>,
@@ -69,7 +70,7 @@ impl<'a> FitProblem<'a> {
             frame_weights: vec![0.0; points.len()],
             paths: common.iter().map(|c| Cow::Borrowed(c.path)).collect(),
             weights: common.iter().map(|c| c.weight).collect(),
-            on_arm: on_arm(model, &tree),
+            on_arm_or_head: on_arm_or_head(model, &tree),
             times: Cow::Borrowed(&recording.times),
             prescribed: prescribed.collect(),
             tasks: held_unknowns(model, &tree, &settings.tasks, findings),
@@ -87,7 +88,7 @@ impl<'a> FitProblem<'a> {
             points: self.points,
             paths: self.paths.into_iter().map(|path| Cow::Owned(path.into_owned())).collect(),
             weights: self.weights,
-            on_arm: self.on_arm,
+            on_arm_or_head: self.on_arm_or_head,
             times: Cow::Owned(self.times.into_owned()),
             prescribed: self.prescribed,
             tasks: self.tasks,
@@ -344,11 +345,15 @@ fn first<'a>(names: impl Iterator<Item = &'a str>, most: usize) -> String {
     }
 }
 
-/// Whether each unknown moves an arm.
-fn on_arm(model: &Model, tree: &MarkerTree) -> Vec<bool> {
+/// Whether each unknown moves an arm or a head that is a body of its own.
+fn on_arm_or_head(model: &Model, tree: &MarkerTree) -> Vec<bool> {
     let ids: Vec<CoordinateId> = model.coordinate_ids().collect();
-    let is_on_arm = |unknown: usize| Region::of_coordinate(model, ids[tree.coordinate(unknown)]) == Some(Region::Arms);
-    (0..tree.unknowns()).map(is_on_arm).collect()
+    let neck = model.body(HEAD).map(|head| model.bodies()[head.index()].joint.coordinates()).unwrap_or_default();
+    let is_spared = |unknown: usize| {
+        let id = ids[tree.coordinate(unknown)];
+        neck.contains(&id) || Region::of_coordinate(model, id) == Some(Region::Arms)
+    };
+    (0..tree.unknowns()).map(is_spared).collect()
 }
 
 /// Ranges of the unknowns. Joints to ground have none: a person may turn around more often than the range of the root

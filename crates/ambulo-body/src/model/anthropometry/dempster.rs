@@ -18,6 +18,7 @@ const LENGTHS: Lengths = Lengths {
     lumbar: None,
     shoulder: 0.288,
     head: 0.130,
+    head_and_neck: 1.0 - C7,
     upper_arm: 0.186,
     forearm: 0.146,
     hand: 0.108,

@@ -69,6 +69,7 @@ pub(super) fn proportions() -> Proportions {
         lumbar: None,
         shoulder: TRUNK.1 / 100.0,
         head: HEAD.1 / 100.0,
+        head_and_neck: 1.0 - (UPPER_LEG.1 + LOWER_LEG.1 + TRUNK.1) / 100.0 - ANKLE_HEIGHT,
         upper_arm: UPPER_ARM.1 / 100.0,
         forearm: LOWER_ARM.1 / 100.0,
         hand: HAND_LENGTH,

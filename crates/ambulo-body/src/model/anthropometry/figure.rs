@@ -4,7 +4,7 @@ use super::dimensions::Dimensions;
 use super::foot;
 use super::proportions::{Proportions, RigidPart};
 use super::ranges::{self, Range};
-use super::{Build, BuildError};
+use super::{Build, BuildError, Extremities};
 use crate::model::{
     Body, BodyId, Coordinate, CoordinateId, CoordinateKind, Displacement, Drive, Function, Joint, JointAxis,
     JointSpeeds, Marker, Model, Side,
@@ -23,14 +23,7 @@ struct FigureBuilder<'a> {
 }
 
 pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Model, BuildError> {
-    let mut builder = FigureBuilder {
-        build,
-        mass: build.mass / p.mass(),
-        dimensions: d,
-        bodies: Vec::new(),
-        coordinates: Vec::new(),
-        markers: Vec::new(),
-    };
+    let mut builder = FigureBuilder::new(build, p, d);
     let (root, torso) = builder.trunk(p)?;
     for side in Side::BOTH {
         builder.leg(root, side, p)?;
@@ -44,7 +37,21 @@ pub(super) fn model(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Mo
     Ok(Model::new(name, Vec3::new(0.0, -STANDARD_GRAVITY, 0.0), bodies, coordinates, markers)?)
 }
 
-impl FigureBuilder<'_> {
+/// Head with neck, and a hand, as parts of their own.
+pub(super) fn extremities(build: &Build, p: &Proportions, d: &Dimensions) -> Result<Extremities, BuildError> {
+    let builder = FigureBuilder::new(build, p, d);
+    let joint = d.vertex() - p.lengths.head_and_neck * build.height;
+    let head = builder.rigid_parts(&p.torso[p.torso.len() - 1..], Vec3::y() * -joint)?;
+    let hand = builder.rigid_parts(&[p.hand], Vec3::zeros())?;
+    Ok(Extremities { neck: Vec3::y() * (joint - d.lumbar_height.unwrap_or(0.0)), head, hand })
+}
+
+impl<'a> FigureBuilder<'a> {
+    fn new(build: &'a Build, p: &Proportions, dimensions: &'a Dimensions) -> FigureBuilder<'a> {
+        let mass = build.mass / p.mass();
+        FigureBuilder { build, mass, dimensions, bodies: Vec::new(), coordinates: Vec::new(), markers: Vec::new() }
+    }
+
     /// The root and the body with the shoulders, which may be the same.
     fn trunk(&mut self, p: &Proportions) -> Result<(BodyId, BodyId), BuildError> {
         let d = *self.dimensions;

@@ -63,7 +63,7 @@ pub use table::{SegmentTable, UnknownTable};
 use super::anatomy::Sole;
 use super::{Model, ModelError, Side};
 use crate::numerics::Shown;
-use crate::spatial::InertiaError;
+use crate::spatial::{Inertia, InertiaError, Vec3};
 
 /// Range of body masses [kg]: from infants to the heaviest persons who walk.
 const MASS_RANGE: [f64; 2] = [2.0, 300.0];
@@ -150,6 +150,17 @@ impl Human {
     }
 }
 
+/// Parts of trunk and forearm that may move on them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extremities {
+    /// The joint between neck and trunk, in the trunk [m].
+    pub(crate) neck: Vec3,
+    /// Head and neck, relative to this joint.
+    pub(crate) head: Inertia,
+    /// Hand, relative to the wrist.
+    pub(crate) hand: Inertia,
+}
+
 impl Build {
     /// The figure of a table in its usual size, with toe joints: for de Leva's and Winter's tables round numbers near
     /// the means of their subjects, for the 1997 paper 80 kg with the stature that completes its table.
@@ -174,6 +185,12 @@ impl Build {
         let model = figure::model(self, &proportions, &dimensions)?;
         let soles = foot::soles(&model, &dimensions, self.toe_joint);
         Ok(Human { model, soles, dimensions, build: *self })
+    }
+
+    /// Head with neck, and a hand, which the figure has as parts of trunk and forearm.
+    pub(crate) fn extremities(&self) -> Result<Extremities, BuildError> {
+        let proportions = self.table.proportions();
+        figure::extremities(self, &proportions, &Dimensions::new(&proportions.lengths, self.height))
     }
 
     fn check(&self) -> Result<(), BuildError> {

@@ -37,6 +37,8 @@ pub(super) struct Lengths {
     pub(super) shoulder: f64,
     /// Head without neck.
     pub(super) head: f64,
+    /// Head and neck: vertex to the joint between neck and trunk.
+    pub(super) head_and_neck: f64,
     pub(super) upper_arm: f64,
     pub(super) forearm: f64,
     /// Wrist to the tip of the middle finger.
@@ -58,7 +60,7 @@ pub(super) struct Proportions {
     pub(super) hand: RigidPart,
     /// Parts below the lumbar joint, relative to mid-hip; empty for an undivided trunk.
     pub(super) pelvis: Vec<RigidPart>,
-    /// Trunk and head, relative to mid-hip.
+    /// Trunk, and last the head, relative to mid-hip.
     pub(super) torso: Vec<RigidPart>,
 }
 

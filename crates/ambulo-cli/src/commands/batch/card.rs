@@ -1,5 +1,5 @@
-//! The card of a batch, the file `README.md` beside the tables: what each table and column means, for readers who did not
-//! run the batch.
+//! The card of a batch, the file `README.md` beside the tables: what each table and column means, for readers who did
+//! not run the batch.
 
 use super::ledger::Description;
 use super::rows_of;

@@ -86,22 +86,22 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
     usual: StanceErrors {
         force: [
             StanceCurve([
-                0.0, 0.00407, 0.00218, -0.00087, -0.00257, 0.00206, 0.00177, -0.00161, 3e-5, 0.00377, 0.00185, 0.00059,
-                0.00628, -0.00515, 0.0,
+                0.0, 0.00389, 0.0019, -0.00115, -0.00276, 0.00198, 0.00186, -0.00147, 0.00012, 0.00381, 0.00184,
+                0.00057, 0.00634, -0.00497, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.00569, -0.00978, 0.00255, 0.00358, -0.0068, -0.00026, 0.00976, 0.00684, -0.01648, 0.00253,
-                0.02386, -0.00841, -0.01392, 0.0,
+                0.0, -0.00535, -0.0093, 0.00307, 0.00386, -0.0068, -0.00071, 0.00938, 0.00689, -0.01619, 0.00269,
+                0.02378, -0.00856, -0.01405, 0.0,
             ]),
             StanceCurve([
-                0.0, 0.0087, 0.01724, 0.01583, 0.00063, -0.00409, -0.00439, -0.00372, 0.00257, 0.00379, 0.00226,
-                -0.00239, 0.00592, 0.01191, -0.0,
+                0.0, 0.00921, 0.01782, 0.01627, 0.00084, -0.00414, -0.00459, -0.00372, 0.00268, 0.0037, 0.00201,
+                -0.0023, 0.0067, 0.01289, -0.0,
             ]),
         ],
         center: [
             StanceCurve([
-                -0.00101, -0.0049, -0.00582, -0.0037, -0.00292, -0.00826, -0.01066, -0.0009, 0.00251, -0.00072,
-                -0.00848, -0.00929, -0.00239, 0.00468, 0.00299,
+                -0.00103, -0.00499, -0.00594, -0.00387, -0.00314, -0.00855, -0.01103, -0.00124, 0.00234, -0.00067,
+                -0.00826, -0.00898, -0.0021, 0.00498, 0.00306,
             ]),
             StanceCurve::NONE,
         ],
@@ -110,12 +110,12 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
         [StanceCurve::NONE; 3],
         [
             StanceCurve([
-                0.0, -0.06484, -0.08899, -0.06379, -0.06936, -0.07472, 0.00788, 0.00078, -0.00948, -0.01559, 0.02075,
-                0.03132, 0.02159, 0.05549, 0.0,
+                0.0, -0.06226, -0.08533, -0.05989, -0.06704, -0.07332, 0.00668, -0.00155, -0.01044, -0.0146, 0.02114,
+                0.03056, 0.02096, 0.05525, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.06089, -0.09752, -0.079, -0.04364, -0.00921, 0.04134, 0.02459, -0.00602, -0.03282, -0.02113,
-                -0.01773, 0.00894, 0.05169, 0.0,
+                0.0, -0.05842, -0.09496, -0.07699, -0.04257, -0.00944, 0.03951, 0.02275, -0.0064, -0.03158, -0.02015,
+                -0.01778, 0.00869, 0.05178, 0.0,
             ]),
             StanceCurve::NONE,
         ],
@@ -123,8 +123,8 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
             StanceCurve::NONE,
             StanceCurve::NONE,
             StanceCurve([
-                0.0, -0.00386, -0.00278, -0.00056, -0.00144, -0.0012, -0.00222, -0.00172, 0.00137, -0.00095, -0.00722,
-                -0.00476, 0.00428, 0.00535, -0.0,
+                0.0, -0.00359, -0.00235, -0.00015, -0.00115, -0.00104, -0.00224, -0.00177, 0.00138, -0.00096, -0.00722,
+                -0.00465, 0.00444, 0.00544, -0.0,
             ]),
         ],
     ],
@@ -134,29 +134,29 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
 const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [
-            DeviationScaling { factor: 1.75, floor: 0.00938 },
-            DeviationScaling { factor: 1.32, floor: 0.00546 },
-            DeviationScaling { factor: 1.28, floor: 0.0 },
+            DeviationScaling { factor: 1.72, floor: 0.00921 },
+            DeviationScaling { factor: 1.38, floor: 0.00363 },
+            DeviationScaling { factor: 1.16, floor: 0.00354 },
             DeviationScaling { factor: 0.3, floor: 0.0134 },
-            DeviationScaling { factor: 0.33, floor: 0.0267 },
+            DeviationScaling { factor: 0.437, floor: 0.0264 },
         ],
         [
-            DeviationScaling { factor: 2.22, floor: 0.0678 },
-            DeviationScaling { factor: 1.12, floor: 0.0138 },
-            DeviationScaling { factor: 1.19, floor: 0.00787 },
-            DeviationScaling { factor: 1.01, floor: 0.0275 },
-            DeviationScaling { factor: 1.05, floor: 0.0494 },
+            DeviationScaling { factor: 1.35, floor: 0.0861 },
+            DeviationScaling { factor: 0.885, floor: 0.0173 },
+            DeviationScaling { factor: 1.05, floor: 0.0104 },
+            DeviationScaling { factor: 1.03, floor: 0.0274 },
+            DeviationScaling { factor: 1.08, floor: 0.0489 },
         ],
         [
-            DeviationScaling { factor: 1.28, floor: 0.00751 },
+            DeviationScaling { factor: 1.28, floor: 0.00764 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
-            DeviationScaling { factor: 0.99, floor: 0.00335 },
-            DeviationScaling { factor: 0.643, floor: 0.0 },
+            DeviationScaling { factor: 1.05, floor: 0.00111 },
+            DeviationScaling { factor: 0.689, floor: 0.0 },
         ],
     ],
-    center: [DeviationScaling { factor: 0.3, floor: 0.017 }, DeviationScaling { factor: 0.3, floor: 0.00943 }],
-    free_moment: DeviationScaling { factor: 0.752, floor: 0.00295 },
+    center: [DeviationScaling { factor: 0.3, floor: 0.0169 }, DeviationScaling { factor: 0.3, floor: 0.00941 }],
+    free_moment: DeviationScaling { factor: 1.29, floor: 0.000342 },
     of_misfit: 0.5,
     of_center_misfit: 0.4,
     of_sideways: 0.1,
