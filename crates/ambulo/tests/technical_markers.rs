@@ -125,7 +125,7 @@ impl Made {
     fn found(&self, standing: Option<&MarkerRecording>, further: &[NamedMarker]) -> BTreeMap<String, Marker> {
         let model = self.human.model.with_markers(self.known.clone()).unwrap();
         let weights = BTreeMap::new();
-        let body = MarkedBody { model: &model, weights: &weights };
+        let body = MarkedBody { model: &model, weights: &weights, is_shown: false };
         let named = [named_in(&self.moving), further.to_vec()].concat();
         let found = technical_markers(body, &self.moving, standing, &named);
         found.into_iter().map(|(marker, _)| (marker.name.clone(), marker)).collect()

@@ -22,7 +22,7 @@ const ENDINGS: [&str; 3] = ["jc", "joint", "com"];
 /// Names of the points of a recording that are computed. Points with a known name are not: what they mean is known.
 #[must_use]
 pub fn computed_points<'r>(recording: &'r MarkerRecording, named: &[NamedMarker]) -> Vec<&'r str> {
-    let sample = sample(recording);
+    let sample = sample(recording, super::FRAMES);
     let is_named = |name: &str| named.iter().any(|known| known.name == name);
     let (known, unknown): (Vec<_>, Vec<_>) = sample.markers.iter().partition(|path| is_named(&path.name));
     // In a recording that was made by a program all markers keep their distances.

@@ -12,7 +12,7 @@
 //!
 //! A thigh whose knee markers are only in the standing trial is first placed by pelvis and foot, which leaves its
 //! direction uncertain by a few degrees. So the markers that were found join the body, the body follows again, and all
-//! markers are asked again.
+//! markers are asked again. Where known markers show the whole body, the motion alone places the others, at once.
 //!
 //! A name that a marker set knows decides the segment, unless the motion contradicts it. Points that a program computed
 //! from the markers (`computed`) are left out. On a segment that shows a joint by markers of known names, further ones
@@ -68,6 +68,10 @@ const AT_JOINT: f64 = 1.0;
 const BESIDE_JOINT: f64 = 0.02;
 /// How often the markers are asked at most.
 const ROUNDS: usize = 3;
+/// Frames of the motion that a body follows, spread over it: two steps at 100 Hz have a frame every 30 ms. Of a body
+/// that is shown fewer suffice.
+const FRAMES: usize = 40;
+const FRAMES_IF_SHOWN: usize = 12;
 
 /// A body that follows the markers of a motion.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +80,9 @@ pub struct MarkedBody<'a> {
     pub model: &'a Model,
     /// Weights of the markers; 1 for those that are not listed.
     pub weights: &'a BTreeMap<String, f64>,
+    /// Whether its markers show every thigh and shank and are most of the recorded ones: then it follows well from the
+    /// beginning, and the motion alone places the others.
+    pub is_shown: bool,
 }
 
 /// A marker on its segment.
@@ -101,15 +108,17 @@ pub fn technical_markers(
     named: &[NamedMarker],
 ) -> Vec<(Marker, f64)> {
     let asked = asked(body.model, moving, named);
-    let still = standing.and_then(|standing| SegmentMotion::of(body.model, body.weights, standing));
+    let (rounds, frames) = if body.is_shown { (1, FRAMES_IF_SHOWN) } else { (ROUNDS, FRAMES) };
+    let standing = standing.filter(|_| !body.is_shown && !asked.is_empty());
+    let still = standing.and_then(|standing| SegmentMotion::of(body.model, body.weights, standing, frames));
     let mut found: BTreeMap<&str, Placed> = BTreeMap::new();
-    for round in 0..ROUNDS {
+    for round in 0..rounds {
         if asked.is_empty() {
             break;
         }
         let Some((model, weights)) = with(body, &found) else { break };
-        let Some(moved) = SegmentMotion::of(&model, &weights, moving) else { break };
-        let search = Search { body, moving, moved, still: still.as_ref(), is_first: round == 0 };
+        let Some(moved) = SegmentMotion::of(&model, &weights, moving, frames) else { break };
+        let search = Search { body, moving, moved, still: still.as_ref(), is_first: round == 0 && !body.is_shown };
         let next: BTreeMap<&str, Placed> =
             asked.iter().filter_map(|(name, own)| Some((*name, search.placed(name, *own)?))).collect();
         let segments = |found: &BTreeMap<&str, Placed>| -> Vec<(String, BodyId)> {

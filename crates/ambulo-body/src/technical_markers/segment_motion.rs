@@ -8,9 +8,6 @@ use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 
-/// Largest number of frames that are fitted, spread over the recording: two steps at 100 Hz have a frame every 30 ms.
-const FRAMES: usize = 40;
-
 /// The poses of all bodies in some frames of a recording.
 pub(super) struct SegmentMotion {
     /// The recording in these frames.
@@ -20,13 +17,14 @@ pub(super) struct SegmentMotion {
 }
 
 impl SegmentMotion {
-    /// `None` if the model cannot follow the recording.
+    /// In at most so many frames. `None` if the model cannot follow the recording.
     pub(super) fn of(
         model: &Model,
         weights: &BTreeMap<String, f64>,
         recording: &MarkerRecording,
+        frames: usize,
     ) -> Option<SegmentMotion> {
-        let sample = sample(recording);
+        let sample = sample(recording, frames);
         let settings = FitSettings {
             weights: weights.clone(),
             limits: JointLimits::Ranges,
@@ -67,8 +65,8 @@ fn poses_at(model: &Model, known: &[Option<f64>]) -> Vec<Option<Pose>> {
 }
 
 /// Frames spread over a recording.
-pub(super) fn sample(recording: &MarkerRecording) -> MarkerRecording {
-    let step = recording.frames().div_ceil(FRAMES).max(1);
+pub(super) fn sample(recording: &MarkerRecording, frames: usize) -> MarkerRecording {
+    let step = recording.frames().div_ceil(frames).max(1);
     let path = |path: &MarkerPath| MarkerPath {
         name: path.name.clone(),
         positions: path.positions.iter().copied().step_by(step).collect(),

@@ -66,10 +66,12 @@ impl Subject {
             return self;
         }
         let Some(named) = named(moving, set) else { return self };
-        if self.is_shown_by(moving, &named) {
+        let followed = self.known_share(moving, &named);
+        if followed.is_some_and(|share| share >= ENOUGH_BY_NAME) {
             return self;
         }
-        let body = MarkedBody { model: &self.model, weights: &self.weights };
+        let is_shown = followed.is_some_and(|share| share >= LEAST_MARKER_SHARE);
+        let body = MarkedBody { model: &self.model, weights: &self.weights, is_shown };
         let found = technical_markers(body, moving, standing, &named);
         if found.is_empty() {
             return self;
@@ -82,14 +84,13 @@ impl Subject {
         Subject { model, weights, ..self }
     }
 
-    /// Whether markers with known names show the body: nearly all of those that were recorded, and every thigh and
-    /// shank.
-    fn is_shown_by(&self, moving: &MarkerRecording, named: &[NamedMarker]) -> bool {
+    /// The share of the recorded markers that the body has by their names; `None` if they hardly show a thigh or shank.
+    fn known_share(&self, moving: &MarkerRecording, named: &[NamedMarker]) -> Option<f64> {
         let recorded = recorded(moving, named);
         let is_on_body = |name: &&str| self.model.markers().iter().any(|marker| marker.name == *name);
         let followed: Vec<&str> = recorded.iter().copied().filter(is_on_body).collect();
-        followed.len() as f64 >= ENOUGH_BY_NAME * recorded.len() as f64
-            && hardly_shown(self, &followed).next().is_none()
+        let is_shown = hardly_shown(self, &followed).next().is_none();
+        is_shown.then_some(followed.len() as f64 / recorded.len() as f64)
     }
 }
 
