@@ -86,21 +86,21 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
     usual: StanceErrors {
         force: [
             StanceCurve([
-                0.0, 0.00389, 0.0019, -0.00115, -0.00276, 0.00198, 0.00186, -0.00147, 0.00012, 0.00381, 0.00184,
-                0.00057, 0.00634, -0.00497, 0.0,
+                0.0, 0.00389, 0.00191, -0.00115, -0.00276, 0.00198, 0.00186, -0.00147, 0.00012, 0.00381, 0.00184,
+                0.00058, 0.00634, -0.00497, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.00535, -0.0093, 0.00307, 0.00386, -0.0068, -0.00071, 0.00938, 0.00689, -0.01619, 0.00269,
-                0.02378, -0.00856, -0.01405, 0.0,
+                0.0, -0.00535, -0.0093, 0.00307, 0.00387, -0.00679, -0.0007, 0.00939, 0.00689, -0.01619, 0.00269,
+                0.02377, -0.00858, -0.01406, 0.0,
             ]),
             StanceCurve([
-                0.0, 0.00921, 0.01782, 0.01627, 0.00084, -0.00414, -0.00459, -0.00372, 0.00268, 0.0037, 0.00201,
-                -0.0023, 0.0067, 0.01289, -0.0,
+                0.0, 0.0092, 0.01781, 0.01626, 0.00082, -0.00415, -0.0046, -0.00373, 0.00268, 0.00371, 0.00202,
+                -0.00229, 0.00671, 0.01289, -0.0,
             ]),
         ],
         center: [
             StanceCurve([
-                -0.00103, -0.00499, -0.00594, -0.00387, -0.00314, -0.00855, -0.01103, -0.00124, 0.00234, -0.00067,
+                -0.00103, -0.00499, -0.00594, -0.00386, -0.00314, -0.00855, -0.01103, -0.00124, 0.00234, -0.00067,
                 -0.00826, -0.00898, -0.0021, 0.00498, 0.00306,
             ]),
             StanceCurve::NONE,
@@ -110,12 +110,12 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
         [StanceCurve::NONE; 3],
         [
             StanceCurve([
-                0.0, -0.06226, -0.08533, -0.05989, -0.06704, -0.07332, 0.00668, -0.00155, -0.01044, -0.0146, 0.02114,
-                0.03056, 0.02096, 0.05525, 0.0,
+                0.0, -0.06224, -0.08532, -0.05988, -0.06704, -0.07336, 0.00664, -0.00155, -0.01044, -0.0146, 0.02113,
+                0.03057, 0.02101, 0.05532, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.05842, -0.09496, -0.07699, -0.04257, -0.00944, 0.03951, 0.02275, -0.0064, -0.03158, -0.02015,
-                -0.01778, 0.00869, 0.05178, 0.0,
+                0.0, -0.05846, -0.09499, -0.07697, -0.04254, -0.00935, 0.03957, 0.02276, -0.0064, -0.03157, -0.02013,
+                -0.01779, 0.00862, 0.0516, 0.0,
             ]),
             StanceCurve::NONE,
         ],
@@ -123,8 +123,8 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
             StanceCurve::NONE,
             StanceCurve::NONE,
             StanceCurve([
-                0.0, -0.00359, -0.00235, -0.00015, -0.00115, -0.00104, -0.00224, -0.00177, 0.00138, -0.00096, -0.00722,
-                -0.00465, 0.00444, 0.00544, -0.0,
+                0.0, -0.00359, -0.00235, -0.00014, -0.00114, -0.00103, -0.00224, -0.00177, 0.00138, -0.00097, -0.00722,
+                -0.00466, 0.00443, 0.00545, -0.0,
             ]),
         ],
     ],
@@ -138,24 +138,24 @@ const CALIBRATION: DeviationCalibration = DeviationCalibration {
             DeviationScaling { factor: 1.38, floor: 0.00363 },
             DeviationScaling { factor: 1.16, floor: 0.00354 },
             DeviationScaling { factor: 0.3, floor: 0.0134 },
-            DeviationScaling { factor: 0.437, floor: 0.0264 },
+            DeviationScaling { factor: 0.438, floor: 0.0264 },
         ],
         [
-            DeviationScaling { factor: 1.35, floor: 0.0861 },
-            DeviationScaling { factor: 0.885, floor: 0.0173 },
+            DeviationScaling { factor: 1.36, floor: 0.0861 },
+            DeviationScaling { factor: 1.27, floor: 0.0104 },
             DeviationScaling { factor: 1.05, floor: 0.0104 },
             DeviationScaling { factor: 1.03, floor: 0.0274 },
             DeviationScaling { factor: 1.08, floor: 0.0489 },
         ],
         [
-            DeviationScaling { factor: 1.28, floor: 0.00764 },
+            DeviationScaling { factor: 1.29, floor: 0.00764 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
-            DeviationScaling { factor: 1.05, floor: 0.00111 },
-            DeviationScaling { factor: 0.689, floor: 0.0 },
+            DeviationScaling { factor: 0.826, floor: 0.00553 },
+            DeviationScaling { factor: 0.69, floor: 0.0 },
         ],
     ],
-    center: [DeviationScaling { factor: 0.3, floor: 0.0169 }, DeviationScaling { factor: 0.3, floor: 0.00941 }],
+    center: [DeviationScaling { factor: 0.3, floor: 0.0169 }, DeviationScaling { factor: 0.3, floor: 0.0094 }],
     free_moment: DeviationScaling { factor: 1.29, floor: 0.000342 },
     of_misfit: 0.5,
     of_center_misfit: 0.4,
