@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { addressOf, PAGES, picture, withPage } from "./page";
+import { addressOf, emptyBoxes, PAGES, picture, withPage } from "./page";
 
 const ALL = [
   "demo",
@@ -22,8 +22,16 @@ const ALL = [
 /** Largest size of the page of a ten-second walk [bytes]. */
 const LARGEST = 1_500_000;
 
+/** Sentences on the pages that lack something. */
+const MISSING: Record<string, RegExp> = {
+  no_ground: /without ground forces|no ground forces/i,
+  one_leg: /left/i,
+  no_cycles: /cycle/i,
+  gaps: /is missing at 1\.50/,
+};
+
 for (const name of ALL) {
-  test(`${name}: opens from disk without console messages and requests nothing`, async () => {
+  test(`${name}: opens from disk with no console message and no request, shows everything, and names what is missing`, async () => {
     await withPage(name, async ({ page, requests, complaints }) => {
       assert.deepEqual(complaints, []);
       assert.deepEqual(
@@ -31,6 +39,12 @@ for (const name of ALL) {
         [addressOf(name)],
       );
       assert.equal(await page.locator("[role=alert]").count(), 0);
+      assert.deepEqual(await emptyBoxes(page), []);
+      const words = MISSING[name];
+      if (words) {
+        const sentences = await page.locator(".missing, .empty, #quality").allTextContents();
+        assert.match(sentences.join("\n"), words);
+      }
       const { share, colors } = await picture(page);
       assert.ok(share > 0.02, `only ${share} of the picture is drawn`);
       assert.ok(colors > 20, `${colors} colours in the picture`);

@@ -142,3 +142,21 @@ export function picture(page: Page): Promise<{ print: number; share: number; col
     return { print, share: drawn / (data.length / 4), colors: colors.size };
   });
 }
+
+/** Panels, tables and views that contain neither a drawing nor a sentence. */
+export function emptyBoxes(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const hasSentence = (box: Element): boolean => (box.querySelector(".empty")?.textContent ?? "").trim().length > 20;
+    const panels = [...document.querySelectorAll("figure.panel")].filter(
+      (box) => !hasSentence(box) && window.ambulo.panels[box.id.replace("panel-", "")] == null,
+    );
+    const views = [...document.querySelectorAll(".view")].filter(
+      (box) => !hasSentence(box) && !box.querySelector("canvas"),
+    );
+    const tables = [...document.querySelectorAll("table")].filter((box) => !box.querySelector("tbody tr"));
+    const chapters = [...document.querySelectorAll(".chapter")].filter((box) => box.children.length < 2);
+    return [...panels, ...views, ...tables, ...chapters].map(
+      (box) => box.id || box.className || box.outerHTML.slice(0, 80),
+    );
+  });
+}

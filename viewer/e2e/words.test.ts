@@ -1,33 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Page } from "playwright-core";
-import { addressOf, type Opened, withPage } from "./page";
-
-/** Panels, tables and views that contain neither a drawing nor a sentence. */
-function emptyBoxes(page: Page): Promise<string[]> {
-  return page.evaluate(() => {
-    const hasSentence = (box: Element): boolean => (box.querySelector(".empty")?.textContent ?? "").trim().length > 20;
-    const panels = [...document.querySelectorAll("figure.panel")].filter(
-      (box) => !hasSentence(box) && window.ambulo.panels[box.id.replace("panel-", "")] == null,
-    );
-    const views = [...document.querySelectorAll(".view")].filter(
-      (box) => !hasSentence(box) && !box.querySelector("canvas"),
-    );
-    const tables = [...document.querySelectorAll("table")].filter((box) => !box.querySelector("tbody tr"));
-    const chapters = [...document.querySelectorAll(".chapter")].filter((box) => box.children.length < 2);
-    return [...panels, ...views, ...tables, ...chapters].map(
-      (box) => box.id || box.className || box.outerHTML.slice(0, 80),
-    );
-  });
-}
-
-for (const name of ["demo", "recording", "no_ground", "one_leg", "no_cycles", "gaps", "scene"]) {
-  test(`${name}: every box contains a drawing or a sentence`, async () => {
-    await withPage(name, async ({ page }) => {
-      assert.deepEqual(await emptyBoxes(page), []);
-    });
-  });
-}
+import { addressOf, emptyBoxes, type Opened, withPage } from "./page";
 
 test("curves on predicted forces are dotted, in the words of the legend", async () => {
   await withPage("one_leg", async ({ page }) => {
@@ -48,22 +21,6 @@ test("curves on predicted forces are dotted, in the words of the legend", async 
     ]);
   });
 });
-
-const MISSING: [string, RegExp][] = [
-  ["no_ground", /without ground forces|no ground forces/i],
-  ["one_leg", /left/i],
-  ["no_cycles", /cycle/i],
-  ["gaps", /is missing at 1\.50/],
-];
-
-for (const [name, words] of MISSING) {
-  test(`${name}: the page names missing data`, async () => {
-    await withPage(name, async ({ page }) => {
-      const sentences = await page.locator(".missing, .empty, #quality").allTextContents();
-      assert.match(sentences.join("\n"), words);
-    });
-  });
-}
 
 test("infeasible spans are red, with the reason as text", async () => {
   await withPage("infeasible", async ({ page }) => {
