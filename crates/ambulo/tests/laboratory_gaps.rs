@@ -16,6 +16,9 @@ const JOINTS: [&str; 6] =
 const FOOT: [&str; 14] =
     ["HEE", "TOE", "ANK", "MMA", "CPG", "PCA", "LCA", "STL", "NAV", "P1M", "D1M", "P5M", "D5M", "HLX"];
 
+/// What is fitted before and after the instrumented window [s]: ten time constants of the low-pass filter.
+const BESIDE_S: f64 = 0.3;
+
 /// Files of a subject in the axes of the laboratory, and the instrumented window [s].
 struct Trial {
     subject: Subject,
@@ -47,16 +50,16 @@ fn moments(trial: &Trial, walk: &LaboratoryRecording) -> (Vec<Vec<f64>>, Finding
     let mut findings = Findings::default();
     let body = BodySource::BuiltIn { person: &trial.subject.person, set: None };
     let settings = FitSettings::default();
+    let [from, to] = trial.window;
     let markers = MarkerTrial {
         trial: walk,
         standing: Some(&trial.still),
         bodies: Some(&trial.bodies),
         body,
         plate_feet: &[],
-        window: Window::default(),
+        window: Window { from_s: Some(from - BESIDE_S), to_s: Some(to + BESIDE_S) },
     };
     let body = body_in_motion(&markers, &settings, &mut findings).unwrap();
-    let [from, to] = trial.window;
     let settings = AnalysisSettings {
         smoother: Smoother::Butterworth(LowPass { order: 3, cutoff_hz: 6.0 }),
         force_filter: None,
