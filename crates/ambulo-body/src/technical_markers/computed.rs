@@ -40,10 +40,20 @@ fn says_computed(name: &str) -> bool {
     CONTAINED.iter().any(|part| bare.contains(part)) || ENDINGS.iter().any(|end| bare.ends_with(end))
 }
 
-/// Whether two points keep their distance.
+/// Whether two points keep their distance. Two distances of n that differ by d give a variance of d² / (2 n) at the
+/// least, so that most pairs are known to move after a few frames.
 fn is_constant(a: &MarkerPath, b: &MarkerPath) -> bool {
-    let both = (0..a.positions.len()).filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
-    let distances: Vec<f64> = both.map(|frame| (a.positions[frame] - b.positions[frame]).norm()).collect();
+    let frames = a.positions.len();
+    let most_m = CONSTANT_M * (2.0 * frames as f64).sqrt();
+    let (mut distances, [mut least_m, mut largest_m]) = (Vec::new(), [f64::INFINITY, f64::NEG_INFINITY]);
+    for frame in (0..frames).filter(|frame| a.is_seen(*frame) && b.is_seen(*frame)) {
+        let distance_m = (a.positions[frame] - b.positions[frame]).norm();
+        (least_m, largest_m) = (least_m.min(distance_m), largest_m.max(distance_m));
+        if largest_m - least_m > most_m {
+            return false;
+        }
+        distances.push(distance_m);
+    }
     let count = distances.len() as f64;
     let mean = distances.iter().sum::<f64>() / count;
     let variance = distances.iter().map(|distance| (distance - mean).powi(2)).sum::<f64>() / count;

@@ -29,13 +29,14 @@ mod segment_motion;
 
 pub use computed::computed_points;
 
+use crate::kinematics::calibration::ENOUGH_ON_TRUNK;
 use crate::model::marker_set::{NamedMarker, Segment};
 use crate::model::neck_and_wrists::{HEAD as HEAD_BODY, hand};
 use crate::model::{BodyId, Marker, Model, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::numerics::median;
 use crate::spatial::Vec3;
-use segment_motion::SegmentMotion;
+use segment_motion::{Chosen, SegmentMotion};
 use std::collections::BTreeMap;
 
 /// A marker belongs to a segment if it stays this near to its mean place on it [m]: the limit from which a marker
@@ -58,8 +59,6 @@ const LEAST_FRAMES: usize = 5;
 /// Height above the lumbar joint, relative to the shoulders, above which a marker is on the head: the seventh
 /// cervical vertebra is at 1.36, the nose at 1.55.
 const HEAD: f64 = 1.5;
-/// Number of markers that determine a trunk, so that the head, which moves on it, is not needed.
-const ENOUGH_ON_TRUNK: usize = 3;
 /// Smallest weight of a marker that determines the trunk.
 const RELIABLE: f64 = 0.05;
 /// Weight of markers that define a joint.
@@ -68,10 +67,10 @@ const AT_JOINT: f64 = 1.0;
 const BESIDE_JOINT: f64 = 0.02;
 /// How often the markers are asked at most.
 const ROUNDS: usize = 3;
-/// Frames of the motion that a body follows, spread over it: two steps at 100 Hz have a frame every 30 ms. Of a body
-/// that is shown fewer suffice.
+/// Frames of the motion that a body follows: two steps at 100 Hz have a frame every 30 ms.
 const FRAMES: usize = 40;
-const FRAMES_IF_SHOWN: usize = 12;
+/// The same of a body that is shown: one stride.
+const FRAMES_OF_RUN: usize = 30;
 
 /// A body that follows the markers of a motion.
 #[derive(Debug, Clone, Copy)]
@@ -108,7 +107,8 @@ pub fn technical_markers(
     named: &[NamedMarker],
 ) -> Vec<(Marker, f64)> {
     let asked = asked(body.model, moving, named);
-    let (rounds, frames) = if body.is_shown { (1, FRAMES_IF_SHOWN) } else { (ROUNDS, FRAMES) };
+    let (rounds, frames) =
+        if body.is_shown { (1, Chosen::Run(FRAMES_OF_RUN)) } else { (ROUNDS, Chosen::Spread(FRAMES)) };
     let standing = standing.filter(|_| !body.is_shown && !asked.is_empty());
     let still = standing.and_then(|standing| SegmentMotion::of(body.model, body.weights, standing, frames));
     let mut found: BTreeMap<&str, Placed> = BTreeMap::new();

@@ -1,12 +1,24 @@
 //! Poses of the segments of a body that follows the markers of a recording.
 
-use crate::findings::Findings;
-use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, fit_markers};
+use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, nearly_fit_markers};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::{BodyId, Drive, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Frames of a run are at most this far apart [s]: then each begins near its posture, and takes a third of the time.
+const APART_S: f64 = 0.04;
+
+/// Which frames of a recording a body follows; each as many at most.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Chosen {
+    /// Spread over the recording.
+    Spread(usize),
+    /// From its middle, without larger steps than the body follows easily.
+    Run(usize),
+}
 
 /// The poses of all bodies in some frames of a recording.
 pub(super) struct SegmentMotion {
@@ -17,14 +29,17 @@ pub(super) struct SegmentMotion {
 }
 
 impl SegmentMotion {
-    /// In at most so many frames. `None` if the model cannot follow the recording.
+    /// `None` if the model cannot follow the recording.
     pub(super) fn of(
         model: &Model,
         weights: &BTreeMap<String, f64>,
         recording: &MarkerRecording,
-        frames: usize,
+        frames: Chosen,
     ) -> Option<SegmentMotion> {
-        let sample = sample(recording, frames);
+        let sample = match frames {
+            Chosen::Spread(frames) => sample(recording, frames),
+            Chosen::Run(frames) => run(recording, frames),
+        };
         let settings = FitSettings {
             weights: weights.clone(),
             limits: JointLimits::Ranges,
@@ -32,7 +47,7 @@ impl SegmentMotion {
             longest_gap_s: 0.0,
             ..FitSettings::default()
         };
-        let fit = fit_markers(model, &sample, &settings, &mut Findings::default()).ok()?;
+        let fit = nearly_fit_markers(model, &sample, &settings).ok()?;
         let poses = |frame: usize| {
             let of = |column: &Option<Vec<f64>>| column.as_ref().map(|column| column[frame]).filter(|q| q.is_finite());
             poses_at(model, &fit.motion.columns.iter().map(of).collect::<Vec<_>>())
@@ -66,15 +81,27 @@ fn poses_at(model: &Model, known: &[Option<f64>]) -> Vec<Option<Pose>> {
 
 /// Frames spread over a recording.
 pub(super) fn sample(recording: &MarkerRecording, frames: usize) -> MarkerRecording {
-    let step = recording.frames().div_ceil(frames).max(1);
+    every(recording, 0..recording.frames(), recording.frames().div_ceil(frames).max(1))
+}
+
+/// Frames from the middle of a recording.
+fn run(recording: &MarkerRecording, frames: usize) -> MarkerRecording {
+    let all = recording.frames();
+    let step = ((APART_S * recording.rate_hz) as usize).clamp(1, all.div_ceil(frames).max(1));
+    let long = (frames * step).min(all);
+    let first = (all - long) / 2;
+    every(recording, first..first + long, step)
+}
+
+fn every(recording: &MarkerRecording, frames: Range<usize>, step: usize) -> MarkerRecording {
     let path = |path: &MarkerPath| MarkerPath {
         name: path.name.clone(),
-        positions: path.positions.iter().copied().step_by(step).collect(),
+        positions: path.positions[frames.clone()].iter().copied().step_by(step).collect(),
     };
     MarkerRecording {
         name: recording.name.clone(),
         rate_hz: recording.rate_hz / step as f64,
-        times: recording.times.iter().copied().step_by(step).collect(),
+        times: recording.times[frames.clone()].iter().copied().step_by(step).collect(),
         markers: recording.markers.iter().map(path).collect(),
     }
 }

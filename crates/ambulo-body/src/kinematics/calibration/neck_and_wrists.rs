@@ -1,8 +1,8 @@
-//! Whether markers show how head and hands move, and where these markers sit on them.
+//! Joints at neck and wrists: whether the markers show their motion, and where the markers sit on head and hands.
 //!
-//! A head needs three markers beside enough of them on the trunk, a hand both markers of its wrist and the one at the
-//! knuckles. A head that looks ahead in standing has all angles at zero; the marker of the knuckles lies over the axis
-//! of a straight hand, as on an average one.
+//! The neck has a joint if the head has three markers, and the trunk three of its own. A wrist has one if both sides
+//! of the wrist and the knuckles have a marker. The head that looks ahead in the trial of the calibration has all
+//! angles at zero; so has the hand whose marker at the knuckles lies over the middle of the hand, as on an average one.
 
 use super::landmark_trajectories::LandmarkTrajectories;
 use super::pelvis::Pelvis;
@@ -12,8 +12,8 @@ use crate::model::neck_and_wrists::{FreeParts, HEAD, hand};
 use crate::model::{BodyId, BySide, Model};
 use crate::spatial::Vec3;
 
-/// Number of markers on the trunk that show it without those of the head.
-pub(super) const ENOUGH_ON_TRUNK: usize = 3;
+/// Number of markers on the trunk that show its motion without those of the head.
+pub(crate) const ENOUGH_ON_TRUNK: usize = 3;
 /// Number of markers that show how a head turns.
 const ENOUGH_ON_HEAD: usize = 3;
 

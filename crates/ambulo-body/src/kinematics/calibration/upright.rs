@@ -41,9 +41,10 @@ pub fn assume_swinging_arms(model: &Model, motion: &mut Motion, findings: &mut F
         swing.push(format!("`{}`", arm[0]));
     }
     if !swing.is_empty() {
+        let arms =
+            if swing.len() == 1 { "an arm was not recorded: it is" } else { "the arms were not recorded: they are" };
         let message = format!(
-            "arms were not recorded: they are assumed to swing against the legs ({}, {SWING} times half the difference \
-             of the hip angles)",
+            "{arms} assumed to swing against the legs ({}, {SWING} times half the difference of the hip angles)",
             swing.join(", ")
         );
         findings.report(Code::CalibrationArmsSwing, message);

@@ -6,8 +6,8 @@
 //!
 //! Pinned by: tests/marker_outliers.rs
 
-/// Solves to find the posture of the first frame from nothing: 64 placements of the rigid model and fits of the best.
-/// Recordings without faults take about 800; more are needed to start joint by joint, or with swapped labels in the
+/// Solves to find the posture of the first frame from nothing: placements of the rigid model and fits of the best.
+/// Recordings without faults take some hundred; more are needed to start joint by joint, or with swapped labels in the
 /// first frame.
 const TO_BEGIN: usize = 3200;
 /// To find the posture again after a gap.

@@ -67,6 +67,7 @@ use crate::motion::MarkerRecording;
 use frames::{FEWEST, Frames};
 use problem::FitProblem;
 use smoothing::Ending;
+use solve::STEPS;
 
 /// Fits a model to recorded markers, both in world axes. Markers that only one of them has are reported as a note.
 ///
@@ -115,7 +116,7 @@ pub fn fit_markers(
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<MarkerFit, FitError> {
-    let (fit, followed) = fitted(model, markers, settings, findings)?.following(markers.clone());
+    let (fit, followed) = fitted(model, markers, (settings, STEPS), findings)?.following(markers.clone());
     Ok(MarkerFit { followed: Some(followed), ..fit })
 }
 
@@ -128,16 +129,29 @@ pub fn fit_own_markers(
     settings: &FitSettings,
     findings: &mut Findings,
 ) -> Result<(MarkerFit, MarkerRecording), FitError> {
-    Ok(fitted(model, &markers, settings, findings)?.following(markers))
+    Ok(fitted(model, &markers, (settings, STEPS), findings)?.following(markers))
+}
+
+/// [`fit_markers`] in a few steps a frame: postures that are right to within millimetres, also where a weakly
+/// determined angle would take many.
+pub(crate) fn nearly_fit_markers(
+    model: &Model,
+    markers: &MarkerRecording,
+    settings: &FitSettings,
+) -> Result<MarkerFit, FitError> {
+    const FEW_STEPS: usize = 10;
+    let fitted = fitted(model, markers, (settings, FEW_STEPS), &mut Findings::default())?;
+    Ok(fitted.following(markers.clone()).0)
 }
 
 fn fitted(
     model: &Model,
     markers: &MarkerRecording,
-    settings: &FitSettings,
+    (settings, most_steps): (&FitSettings, usize),
     findings: &mut Findings,
 ) -> Result<report::Fitted, FitError> {
     let mut problem = FitProblem::new(model, markers, settings, findings)?;
+    problem.most_steps = most_steps;
     let mut frames = Frames::new(&problem);
     let most = (0..frames.count()).map(|frame| frames.used_in(frame)).max().unwrap_or(0);
     if most < FEWEST {

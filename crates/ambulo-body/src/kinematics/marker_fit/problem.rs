@@ -40,6 +40,8 @@ pub(super) struct FitProblem<'a> {
     shifted: Vec<Point>,
     pub(super) positions: Vec<Vec3>,
     pub(super) frame_weights: Vec<f64>,
+    /// Largest number of steps of the fit of a frame.
+    pub(super) most_steps: usize,
 }
 
 impl<'a> FitProblem<'a> {
@@ -68,6 +70,7 @@ impl<'a> FitProblem<'a> {
             shifted: points.clone(),
             positions: vec![Vec3::zeros(); points.len()],
             frame_weights: vec![0.0; points.len()],
+            most_steps: STEPS,
             paths: common.iter().map(|c| Cow::Borrowed(c.path)).collect(),
             weights: common.iter().map(|c| c.weight).collect(),
             on_arm_or_head: on_arm_or_head(model, &tree),
@@ -95,6 +98,7 @@ impl<'a> FitProblem<'a> {
             shifted: self.shifted,
             positions: self.positions,
             frame_weights: self.frame_weights,
+            most_steps: self.most_steps,
         }
     }
 
@@ -153,12 +157,12 @@ impl<'a> FitProblem<'a> {
     /// Fits the loaded markers to the markers of the model.
     pub(super) fn fit(&mut self, x: &mut [f64]) -> Outcome {
         let targets = Targets { points: &self.points, positions: &self.positions, weights: &self.frame_weights };
-        self.solver.fit(&mut self.tree, &targets, &self.bounds, x, STEPS)
+        self.solver.fit(&mut self.tree, &targets, &self.bounds, x, self.most_steps)
     }
 
     /// Fits the loaded markers to markers of the model that are shifted by offsets in the axes of their bodies [m].
     pub(super) fn fit_with_offsets(&mut self, offsets: &[Vec3], x: &mut [f64]) -> Outcome {
-        self.approach_offsets(offsets, x, STEPS)
+        self.approach_offsets(offsets, x, self.most_steps)
     }
 
     /// As [`FitProblem::fit_with_offsets`], with at most this number of steps.

@@ -1,14 +1,18 @@
 //! Initial posture for the first frame and for frames after long gaps.
 //!
-//! The model in its default posture is fitted to the markers as one rigid body, starting from all rotations of the root
-//! by multiples of 90 degrees. The best results are fitted in full and, if the distances stay large, again joint by
-//! joint from the root outwards. The posture with the lowest cost is used.
+//! The model in its default posture is fitted to the markers as one rigid body, starting from the best of all rotations
+//! of the root by multiples of 90 degrees. The best results are fitted in full and, if the distances stay large, again
+//! joint by joint from the root outwards. The posture with the lowest cost is used.
 //!
 //! Pinned by: tests/marker_fit.rs (recordings turned about the vertical, random postures)
 
 use super::problem::FitProblem;
+use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Number of rotations from which the rigid body is fitted, of 64: three sets of angles have the same rotation on
+/// average.
+const ROTATIONS: usize = 12;
 /// Number of rigid placements that are fitted in full.
 const CANDIDATES: usize = 3;
 /// Maximum number of root angles that are varied: an orientation has three.
@@ -63,14 +67,19 @@ fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     let held = problem.bounds.held.clone();
     problem.bounds.held.fill(true);
     root.iter().for_each(|column| problem.bounds.held[column.unknown] = false);
-    let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
-    for k in 0..TURNS.len().pow(angles.len() as u32) {
+    let turned = |k: usize| {
         let mut x = default.to_vec();
         for (place, &unknown) in angles.iter().enumerate() {
             x[unknown] += TURNS[k / TURNS.len().pow(place as u32) % TURNS.len()];
         }
-        let cost = problem.fit(&mut x).cost;
-        found.push((cost, x));
+        x
+    };
+    let starts = (0..TURNS.len().pow(angles.len() as u32)).map(turned);
+    let mut found: Vec<(f64, Vec<f64>)> = starts.map(|x| (cost_where_it_fits(problem, &x), x)).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.truncate(ROTATIONS);
+    for (cost, x) in &mut found {
+        *cost = problem.fit(x).cost;
     }
     problem.bounds.held = held;
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -85,6 +94,18 @@ fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
         same
     });
     found.into_iter().take(CANDIDATES).map(|(_, x)| x).collect()
+}
+
+/// Cost of a rotation of the whole body at its best place: Σ w |d|² - |Σ w d|² / Σ w, with d from the marker of the
+/// body to the recorded one [m²].
+fn cost_where_it_fits(problem: &mut FitProblem<'_>, x: &[f64]) -> f64 {
+    problem.pose_at(x);
+    let (mut weights, mut sum, mut squares) = (0.0, Vec3::zeros(), 0.0);
+    for (i, &weight) in problem.frame_weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+        let off = problem.positions[i] - problem.place(i, &Vec3::zeros());
+        (weights, sum, squares) = (weights + weight, sum + off * weight, squares + weight * off.norm_squared());
+    }
+    squares - sum.norm_squared() / weights
 }
 
 /// Fits joint by joint from the root outwards, each to the markers of its own body.
