@@ -1,4 +1,4 @@
-//! The figures of a measurement beside those of an earlier revision, as ratios: `cargo xtask bench --baseline REV`.
+//! A benchmark of this tree and of an earlier revision, with the ratios: `cargo xtask bench --baseline REV`.
 //!
 //! The revision is unpacked, and its own automation prints its figures right after ours, so that the state of the
 //! machine counts for both. Rows of the two outputs are the same if they have the same words; each of their numbers is

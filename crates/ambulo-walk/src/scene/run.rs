@@ -280,7 +280,7 @@ impl Scene {
         self.seen(going)
     }
 
-    /// What follows from the answer of the caller to a frame.
+    /// Ends the run with an error if the caller answered a frame with `Break`.
     fn seen(&self, going: ControlFlow<()>) -> Result<(), RunError> {
         match going {
             ControlFlow::Continue(()) => Ok(()),

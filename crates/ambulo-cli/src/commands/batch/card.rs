@@ -1,5 +1,4 @@
-//! The card of a batch, the file `README.md` beside the tables: what each table and column means, for readers who did
-//! not run the batch.
+//! The data card of a batch, `README.md` beside the tables: the meaning of each table and column.
 
 use super::ledger::Description;
 use super::rows_of;
