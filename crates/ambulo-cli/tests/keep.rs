@@ -46,6 +46,33 @@ fn scenes_and_walks_can_leave_outputs_out() {
     assert!(bench.exists("demo/input/walk.mot") && bench.exists("demo/input/walk.c3d"));
 }
 
+/// In a walk on level ground at least one foot touches it at all times, and each for 55 to 70 % of a cycle: heel first,
+/// toes last.
+#[test]
+fn walks_have_labels_of_contact() {
+    let bench = Workbench::empty("keep_contact");
+    bench.run(&["walk", "--cycles=1", "--keep=foot_contact", "--quiet", "-o", "out"]).done();
+    assert_eq!(bench.names("out"), ["foot_contact.sto", "summary.json"]);
+    let text = bench.text("out/foot_contact.sto");
+    let (_, table) = text.split_once("endheader\n").unwrap();
+    let (header, rows) = table.split_once('\n').unwrap();
+    let names = ["time", "heel_r_contact", "toes_r_contact", "heel_l_contact", "toes_l_contact"];
+    assert_eq!(header.split('\t').collect::<Vec<_>>(), names);
+    let rows: Vec<Vec<bool>> = rows
+        .lines()
+        .map(|row| row.split('\t').skip(1).map(|label| label.trim().parse::<f64>().unwrap() > 0.5).collect())
+        .collect();
+    let share =
+        |is_it: &dyn Fn(&[bool]) -> bool| rows.iter().filter(|row| is_it(row)).count() as f64 / rows.len() as f64;
+    assert!(rows.iter().all(|row| row.contains(&true)));
+    for foot in [0, 2] {
+        let stance = share(&|row| row[foot] || row[foot + 1]);
+        assert!((0.55..0.70).contains(&stance), "{stance}");
+        let (heel, toes) = (share(&|row| row[foot]), share(&|row| row[foot + 1]));
+        assert!(heel < stance && toes < stance, "{heel} {toes} {stance}");
+    }
+}
+
 #[test]
 fn unknown_names_are_refused_with_those_allowed() {
     let bench = Workbench::new("keep_unknown");

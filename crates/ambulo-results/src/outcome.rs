@@ -28,9 +28,12 @@ pub fn outcome_tables<'a>(outcome: &'a Outcome, keep: &Keep) -> Result<Vec<Outpu
         let table = || tables::coordinates("Coordinates, as recorded", &outcome.body, &outcome.analysis, recorded);
         files.push(OutputFile::storage_by(KINEMATICS_RECORDED, table));
     }
-    if keep.includes(FOOT_CONTACT) && !outcome.stances.is_empty() {
+    if keep.includes(FOOT_CONTACT) {
         let contact = foot_contact(&outcome.body, outcome.complete(), &outcome.person.soles);
-        files.push(OutputFile::storage_by(FOOT_CONTACT, move || tables::foot_contact(outcome.complete(), &contact)));
+        if contact.values().flatten().any(|ends| ends.heel || ends.toes) {
+            let table = move || tables::foot_contact(outcome.complete(), &contact);
+            files.push(OutputFile::storage_by(FOOT_CONTACT, table));
+        }
     }
     if keep.includes(STANCES) && !outcome.stances.is_empty() {
         files.push(OutputFile::new(STANCES, stances_csv(&outcome.stances).into_bytes()));

@@ -34,7 +34,7 @@ _MISSING = {
     "cycles.csv": "the motion has no whole gait cycle",
     "events.csv": "no foot strike or foot off was detected",
     "stances.csv": "no stance was detected",
-    "foot_contact.sto": "no stance was detected, or the body has no soles",
+    "foot_contact.sto": "no foot touches the ground, or the body has no soles",
     _CLINICAL: "the body has no legs whose joints have clinical signs",
     "times_and_distances.csv": "the motion has no stride",
     "model": "the body is none that an OpenSim model can represent, or there is none",
