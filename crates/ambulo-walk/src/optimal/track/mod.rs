@@ -44,6 +44,8 @@ pub const TRACK_STAGES: [Continuation; 6] = [
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Largest root mean square of the residual forces of a solution [body weights, body weights × leg length].
 const LARGEST_RESIDUAL: f64 = 0.003;
+/// How often the last stage is repeated while more than that remains.
+const MORE_ATTEMPTS: usize = 3;
 /// Instants per knot interval.
 const PER_KNOT: usize = 2;
 /// Longest recording [s]: memory grows by some 20 MB per second.
@@ -197,8 +199,8 @@ pub enum TrackError {
     },
     /// No motion near the recorded one was found that feet on the ground can make.
     #[error(
-        "found no motion near the recorded one that feet on the ground alone can make: residual forces of {:.1} % of \
-         body weight (rms, or of body weight times leg length) remain; expected {:.1} % at most",
+        "found no motion near the recorded one that feet on the ground alone can make: residual forces of {:.2} % of \
+         body weight (rms, or of body weight times leg length) remain; expected {:.2} % at most",
         100.0 * share, 100.0 * LARGEST_RESIDUAL
     )]
     NotSolved {
@@ -310,11 +312,20 @@ impl<'a> TrackProblem<'a> {
     /// Joints for which no derivatives are computed; residual forces of more than 0.3 % of body weight (rms) that
     /// remain.
     pub fn solve(&self, stages: &[Continuation]) -> Result<TrackedMotion, TrackError> {
-        let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
-        let solution = self.problem.balanced(solution, &[&Continuation::on(stages)], &self.kept)?;
         let grid = self.recorded.grid();
         let times: Vec<f64> = (0..grid.frames).map(|k| grid.step_s * k as f64).collect();
-        let samples = solution.samples(&times)?;
+        let last = Continuation::on(stages);
+        let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
+        let mut solution = self.problem.balanced(solution, &[&last], &self.kept)?;
+        let mut samples = solution.samples(&times)?;
+        for _ in 0..MORE_ATTEMPTS {
+            let (left, _) = self.residual(&samples);
+            if left.is_nan() || left <= LARGEST_RESIDUAL {
+                break;
+            }
+            solution = self.problem.balanced(solution, &[&last], &self.kept)?;
+            samples = solution.samples(&times)?;
+        }
         let trajectory = self.trajectory(&samples)?;
         let feet = [(Side::Right, 0), (Side::Left, PER_FOOT)].map(|(side, first)| self.foot(&samples, side, first));
         let residual = self.residual(&samples);
