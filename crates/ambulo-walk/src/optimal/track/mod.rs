@@ -44,8 +44,10 @@ pub const TRACK_STAGES: [Continuation; 6] = [
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Largest root mean square of the residual forces of a solution [body weights, body weights × leg length].
 const LARGEST_RESIDUAL: f64 = 0.003;
-/// How often the last stage is repeated while more than that remains.
-const MORE_ATTEMPTS: usize = 3;
+/// A solution that leaves more than this is solved on.
+const SMALL_RESIDUAL: f64 = 0.0005;
+/// How often the last stage is repeated for it.
+const MORE_ATTEMPTS: usize = 8;
 /// Instants per knot interval.
 const PER_KNOT: usize = 2;
 /// Longest recording [s]: memory grows by some 20 MB per second.
@@ -320,7 +322,7 @@ impl<'a> TrackProblem<'a> {
         let mut samples = solution.samples(&times)?;
         for _ in 0..MORE_ATTEMPTS {
             let (left, _) = self.residual(&samples);
-            if left.is_nan() || left <= LARGEST_RESIDUAL {
+            if left.is_nan() || left <= SMALL_RESIDUAL {
                 break;
             }
             solution = self.problem.balanced(solution, &[&last], &self.kept)?;
