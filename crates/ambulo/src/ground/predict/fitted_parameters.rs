@@ -86,22 +86,22 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
     usual: StanceErrors {
         force: [
             StanceCurve([
-                0.0, 0.00389, 0.00191, -0.00115, -0.00276, 0.00198, 0.00186, -0.00147, 0.00012, 0.00381, 0.00184,
-                0.00058, 0.00634, -0.00497, 0.0,
+                0.0, 0.00389, 0.00191, -0.00115, -0.00276, 0.00198, 0.00185, -0.00148, 0.00012, 0.00382, 0.00185,
+                0.00058, 0.00635, -0.00497, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.00535, -0.0093, 0.00307, 0.00387, -0.00679, -0.0007, 0.00939, 0.00689, -0.01619, 0.00269,
-                0.02377, -0.00858, -0.01406, 0.0,
+                0.0, -0.00536, -0.00931, 0.00306, 0.00387, -0.00676, -0.00062, 0.00937, 0.0068, -0.01619, 0.00276,
+                0.02379, -0.00859, -0.01406, 0.0,
             ]),
             StanceCurve([
-                0.0, 0.0092, 0.01781, 0.01626, 0.00082, -0.00415, -0.0046, -0.00373, 0.00268, 0.00371, 0.00202,
-                -0.00229, 0.00671, 0.01289, -0.0,
+                0.0, 0.0092, 0.01781, 0.01627, 0.00083, -0.00416, -0.00464, -0.00373, 0.00273, 0.00372, 0.00199,
+                -0.0023, 0.00671, 0.01288, -0.0,
             ]),
         ],
         center: [
             StanceCurve([
-                -0.00103, -0.00499, -0.00594, -0.00386, -0.00314, -0.00855, -0.01103, -0.00124, 0.00234, -0.00067,
-                -0.00826, -0.00898, -0.0021, 0.00498, 0.00306,
+                -0.00102, -0.00498, -0.00594, -0.00386, -0.00313, -0.00854, -0.01103, -0.00124, 0.00234, -0.00067,
+                -0.00826, -0.00898, -0.0021, 0.00497, 0.00305,
             ]),
             StanceCurve::NONE,
         ],
@@ -110,12 +110,12 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
         [StanceCurve::NONE; 3],
         [
             StanceCurve([
-                0.0, -0.06224, -0.08532, -0.05988, -0.06704, -0.07336, 0.00664, -0.00155, -0.01044, -0.0146, 0.02113,
-                0.03057, 0.02101, 0.05532, 0.0,
+                0.0, -0.06223, -0.0853, -0.05986, -0.06704, -0.07338, 0.00657, -0.00153, -0.01035, -0.0146, 0.02106,
+                0.03056, 0.02102, 0.05533, 0.0,
             ]),
             StanceCurve([
-                0.0, -0.05846, -0.09499, -0.07697, -0.04254, -0.00935, 0.03957, 0.02276, -0.0064, -0.03157, -0.02013,
-                -0.01779, 0.00862, 0.0516, 0.0,
+                0.0, -0.05846, -0.09499, -0.07696, -0.04254, -0.00937, 0.03952, 0.02277, -0.00634, -0.03157, -0.02019,
+                -0.01781, 0.00863, 0.0516, 0.0,
             ]),
             StanceCurve::NONE,
         ],
@@ -123,7 +123,7 @@ const ERRORS: ErrorsByTraits = ErrorsByTraits {
             StanceCurve::NONE,
             StanceCurve::NONE,
             StanceCurve([
-                0.0, -0.00359, -0.00235, -0.00014, -0.00114, -0.00103, -0.00224, -0.00177, 0.00138, -0.00097, -0.00722,
+                0.0, -0.00359, -0.00234, -0.00014, -0.00114, -0.00103, -0.00225, -0.00176, 0.0014, -0.00097, -0.00724,
                 -0.00466, 0.00443, 0.00545, -0.0,
             ]),
         ],
@@ -135,8 +135,8 @@ const CALIBRATION: DeviationCalibration = DeviationCalibration {
     force: [
         [
             DeviationScaling { factor: 1.72, floor: 0.00921 },
-            DeviationScaling { factor: 1.38, floor: 0.00363 },
-            DeviationScaling { factor: 1.16, floor: 0.00354 },
+            DeviationScaling { factor: 1.42, floor: 0.00181 },
+            DeviationScaling { factor: 1.16, floor: 0.00355 },
             DeviationScaling { factor: 0.3, floor: 0.0134 },
             DeviationScaling { factor: 0.438, floor: 0.0264 },
         ],
@@ -144,14 +144,14 @@ const CALIBRATION: DeviationCalibration = DeviationCalibration {
             DeviationScaling { factor: 1.36, floor: 0.0861 },
             DeviationScaling { factor: 1.27, floor: 0.0104 },
             DeviationScaling { factor: 1.05, floor: 0.0104 },
-            DeviationScaling { factor: 1.03, floor: 0.0274 },
+            DeviationScaling { factor: 1.65, floor: 0.0196 },
             DeviationScaling { factor: 1.08, floor: 0.0489 },
         ],
         [
-            DeviationScaling { factor: 1.29, floor: 0.00764 },
+            DeviationScaling { factor: 1.29, floor: 0.00763 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
             DeviationScaling { factor: 0.3, floor: 0.0 },
-            DeviationScaling { factor: 0.826, floor: 0.00553 },
+            DeviationScaling { factor: 1.05, floor: 0.00111 },
             DeviationScaling { factor: 0.69, floor: 0.0 },
         ],
     ],
