@@ -4,6 +4,7 @@ use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, 
 use crate::kinematics::{Posture, body_motion};
 use crate::model::{BodyId, Drive, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
+use crate::numerics::sample_deviation;
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,7 +17,8 @@ const APART_S: f64 = 0.04;
 pub(super) enum Chosen {
     /// Spread over the recording.
     Spread(usize),
-    /// From its middle, without larger steps than the body follows easily.
+    /// From the part of it in which the markers move most, without larger steps than the body follows easily; spread if
+    /// a marker is not seen there.
     Run(usize),
 }
 
@@ -84,13 +86,36 @@ pub(super) fn sample(recording: &MarkerRecording, frames: usize) -> MarkerRecord
     every(recording, 0..recording.frames(), recording.frames().div_ceil(frames).max(1))
 }
 
-/// Frames from the middle of a recording.
+/// Frames in a row where the markers move most against one another, or spread ones where these hide a marker.
 fn run(recording: &MarkerRecording, frames: usize) -> MarkerRecording {
     let all = recording.frames();
     let step = ((APART_S * recording.rate_hz) as usize).clamp(1, all.div_ceil(frames).max(1));
     let long = (frames * step).min(all);
-    let first = (all - long) / 2;
-    every(recording, first..first + long, step)
+    let starts = (0..=all - long).step_by((long / 2).max(1)).chain([all - long]);
+    let runs = starts.map(|first| every(recording, first..first + long, step));
+    let moved = runs.map(|run| (movement_m2(&run), run));
+    let most = moved.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, run)| run);
+    most.filter(|run| hides_none(run, recording)).unwrap_or_else(|| sample(recording, frames))
+}
+
+/// How much the distances between the markers change [m²]: the sum of their variances.
+fn movement_m2(run: &MarkerRecording) -> f64 {
+    let variance = |(a, b): (&MarkerPath, &MarkerPath)| {
+        let both = (0..run.frames()).filter(|&frame| a.is_seen(frame) && b.is_seen(frame));
+        let distances: Vec<f64> = both.map(|frame| (a.positions[frame] - b.positions[frame]).norm()).collect();
+        sample_deviation(&distances).map_or(0.0, |deviation| deviation * deviation)
+    };
+    let pairs = run.markers.iter().enumerate().flat_map(|(i, a)| run.markers[..i].iter().map(move |b| (a, b)));
+    pairs.map(variance).sum()
+}
+
+/// Whether each marker of a recording is seen as often in a run as elsewhere, or nearly so.
+fn hides_none(run: &MarkerRecording, recording: &MarkerRecording) -> bool {
+    let share = |path: &MarkerPath| {
+        let seen = (0..path.positions.len()).filter(|frame| path.is_seen(*frame)).count();
+        seen as f64 / path.positions.len().max(1) as f64
+    };
+    run.markers.iter().zip(&recording.markers).all(|(own, whole)| share(own) >= 0.5 * share(whole))
 }
 
 fn every(recording: &MarkerRecording, frames: Range<usize>, step: usize) -> MarkerRecording {
