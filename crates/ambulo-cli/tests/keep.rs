@@ -70,6 +70,15 @@ fn walks_have_labels_of_contact() {
         assert!((0.55..0.70).contains(&stance), "{stance}");
         let (heel, toes) = (share(&|row| row[foot]), share(&|row| row[foot + 1]));
         assert!(heel < stance && toes < stance, "{heel} {toes} {stance}");
+        // Where a foot meets the ground its heel does so first, and its toes leave last.
+        for pair in rows.windows(2) {
+            let touches = |row: &[bool]| row[foot] || row[foot + 1];
+            match (touches(&pair[0]), touches(&pair[1])) {
+                (false, true) => assert!(pair[1][foot], "{pair:?}"),
+                (true, false) => assert!(pair[0][foot + 1], "{pair:?}"),
+                _ => {}
+            }
+        }
     }
 }
 
