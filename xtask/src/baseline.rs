@@ -13,6 +13,8 @@ use std::process::{Command, Stdio};
 pub(crate) const COMMANDS: [&str; 5] = ["bench", "bench-markers", "bench-simulation", "batch-cost", "stream-cost"];
 
 const OPTION: &str = "--baseline";
+/// Words that may differ between two outputs of the same row: borders, and whether a limit is kept.
+const IGNORED: [&str; 3] = ["|", "met", "missed"];
 
 /// Whether the words ask for a comparison.
 pub(crate) fn is_asked(words: &[String]) -> bool {
@@ -68,7 +70,7 @@ impl<'a> Row<'a> {
     fn of(line: &'a str) -> Option<Row<'a>> {
         let number = |word: &str| word.trim_matches([',', ';', ':', '(', ')', '%', '|']).parse::<f64>().ok();
         let (numbers, words): (Vec<&str>, Vec<&str>) =
-            line.split_whitespace().filter(|word| *word != "|").partition(|word| number(word).is_some());
+            line.split_whitespace().filter(|word| !IGNORED.contains(word)).partition(|word| number(word).is_some());
         (!numbers.is_empty()).then(|| Row { words, numbers: numbers.into_iter().filter_map(number).collect() })
     }
 }
@@ -105,13 +107,14 @@ mod tests {
 
     #[test]
     fn rows_with_the_same_words_are_compared_number_by_number() {
-        let ours = "machine\nprocessor time   24.0 ms per trial of 1.3 s\n| new row | 3 |\npeak memory  10 MB\n";
-        let theirs = "processor time   48.0 ms per trial of 1.3 s\nold 1\npeak memory  5 MB\n";
+        let ours = "machine\nprocessor time   24.0 ms per trial of 1.3 s\n| new row | 3 |\npeak memory  10 MB\nfit  4 ms: met |\n";
+        let theirs = "processor time   48.0 ms per trial of 1.3 s\nold 1\npeak memory  5 MB\n| fit  8 ms: missed\n";
         let found = table(ours, theirs, "abc");
         for row in [
             "processor time ms per trial of s:  24 / 48 = 0.50  1.3 / 1.3 = 1.00\n",
             "new row: not in abc\n",
             "peak memory MB:  10 / 5 = 2.00\n",
+            "fit ms::  4 / 8 = 0.50\n",
             "old: only in abc\n",
         ] {
             assert!(found.contains(row), "{row}\n{found}");
