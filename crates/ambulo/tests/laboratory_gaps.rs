@@ -16,7 +16,7 @@ const JOINTS: [&str; 6] =
 const FOOT: [&str; 14] =
     ["HEE", "TOE", "ANK", "MMA", "CPG", "PCA", "LCA", "STL", "NAV", "P1M", "D1M", "P5M", "D5M", "HLX"];
 
-/// What is fitted before and after the instrumented window [s]: ten time constants of the low-pass filter.
+/// Also fitted before and after the window that is compared [s]: ten time constants of the low-pass filter.
 const BESIDE_S: f64 = 0.3;
 
 /// Files of a subject in the axes of the laboratory, and the instrumented window [s].

@@ -1,4 +1,4 @@
-//! The data card of a batch, `README.md` beside the tables: the meaning of each table and column.
+//! What the tables of a batch hold, column by column: the file `README.md` beside them.
 
 use super::ledger::Description;
 use super::rows_of;
