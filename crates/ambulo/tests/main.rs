@@ -103,6 +103,7 @@ mod laboratory_files;
 mod laboratory_gaps;
 mod laboratory_robustness;
 mod landing_ground;
+mod likeness;
 mod live_markers;
 mod lumped;
 mod marker_fit;

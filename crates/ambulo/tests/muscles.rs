@@ -2,6 +2,7 @@
 //! the condyles are.
 
 use crate::shared_data::data;
+use ambulo::analysis::feasibility::{Likeness, likeness};
 use ambulo::findings::Findings;
 use ambulo::job::{FileError, Job, MuscleStatements};
 use ambulo::muscles::emg::compare;
@@ -66,6 +67,17 @@ fn add(found: &mut Found, outcome: &Outcome, set: &MuscleSet) {
     found.1 += usize::from(at_joint.map(|used| used.largest / used.net).any(|share| share > 0.1));
 }
 
+/// Keeps the instants in which walks come nearest to the limits of what people do.
+fn farthest(people: &mut BTreeMap<String, Likeness>, outcome: &Outcome) {
+    for one in likeness(&outcome.body, &outcome.complete().trajectory, &outcome.person) {
+        let part = one.quantity.trim_end_matches("_r").trim_end_matches("_l");
+        let known = people.entry(format!("{} of {part}", one.measure)).or_insert_with(|| one.clone());
+        if one.share > known.share {
+            *known = one;
+        }
+    }
+}
+
 /// A motor carries the moment of the subtalar joint. With muscles alone there, they are too weak in many walks, and the
 /// activation of tibialis anterior agrees less with its EMG; no other muscle differs by much.
 #[test]
@@ -73,8 +85,10 @@ fn muscles_agree_better_with_emg_where_a_motor_carries_the_subtalar_joint() {
     let Some(data) = data() else { return };
     let walks = walks_of_rehazenter(&data);
     let [mut with_motor, mut alone] = [(); 2].map(|()| Found::default());
+    let mut people: BTreeMap<String, Likeness> = BTreeMap::new();
     for (walk, standing) in &walks {
         let outcome = run(walk.clone(), Some(standing.clone()), None);
+        farthest(&mut people, &outcome);
         let set = &muscles(&outcome).set;
         assert!(set.actuators.iter().any(|motor| motor.name == "subtalar_angle_r_motor"));
         let mut other = set.clone();
@@ -82,6 +96,11 @@ fn muscles_agree_better_with_emg_where_a_motor_carries_the_subtalar_joint() {
         add(&mut with_motor, &outcome, set);
         add(&mut alone, &outcome, &other);
     }
+    for (measure, one) in &people {
+        println!("{measure}: at most {:.3} {}, {:.2} of the limit for walks of people", one.value, one.unit, one.share);
+        assert!(one.share < 0.8, "{}", one.message);
+    }
+    assert_eq!(people.len(), 5);
     println!("{} walks; muscles alone lack a tenth of the subtalar moment in {}", walks.len(), alone.1);
     println!("correlation with EMG: a motor at the subtalar joint, muscles alone, channels");
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;

@@ -299,10 +299,24 @@ fn print_verdict(verdict: &Verdict, print: PrintArgs) -> Result<()> {
                 c.at_s
             )
         });
-        return print_line(&format!("  verdict   feasible{nearest}"));
+        print_line(&format!("  verdict   feasible{nearest}"))?;
+        return print_likeness(verdict);
     }
     let count = verdict.reasons.len();
     print_line(&format!("  verdict   infeasible{}", counted_reasons(count)))?;
-    let shown = verdict.reasons.iter().take(reasons_shown(count, print));
-    shown.into_iter().try_for_each(|reason| print_line(&format!("    {}: {}", reason.check, reason.message)))
+    let mut shown = verdict.reasons.iter().take(reasons_shown(count, print));
+    shown.try_for_each(|reason| print_line(&format!("    {}: {}", reason.check, reason.message)))?;
+    print_likeness(verdict)
+}
+
+/// Prints whether a walk that was made is like walks of people.
+fn print_likeness(verdict: &Verdict) -> Result<()> {
+    let unlike = verdict.unlike_people();
+    if unlike.is_empty() {
+        let Some(nearest) = verdict.likeness.iter().max_by(|a, b| a.share.total_cmp(&b.share)) else { return Ok(()) };
+        let share = 100.0 * nearest.share;
+        return print_line(&format!("  likeness  like people: at most {share:.0} % of the limit, {}", nearest.measure));
+    }
+    print_line(&format!("  likeness  unlike people{}", counted_reasons(unlike.len())))?;
+    unlike.iter().try_for_each(|found| print_line(&format!("    {}: {}", found.measure, found.message)))
 }

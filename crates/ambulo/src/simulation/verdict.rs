@@ -3,7 +3,7 @@
 use super::scene::{FigureMotion, FigureRecord, FigureWalk, ObstacleForces, Scene};
 use super::walking::WalkRecording;
 use crate::analysis::activity::{ActivityKind, activity};
-use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, VerdictState, check};
+use crate::analysis::feasibility::{MotionAndForces, Person, Thresholds, Verdict, VerdictState, check, likeness};
 use crate::dynamics::{Forces, JointReaction, Workspace, inverse_with_residual};
 use crate::findings::Findings;
 use crate::ground::footfalls::footfalls;
@@ -99,7 +99,9 @@ fn walk_verdict(walk: &FigureWalk, thresholds: &Thresholds, findings: &mut Findi
         cutoff_hz: None,
         forces_are_predicted: false,
     };
-    check(&evidence, &Person::of_human(&walk.human), thresholds, findings)
+    let person = Person::of_human(&walk.human);
+    let likeness = likeness(&recording.model, &recording.trajectory, &person);
+    Verdict { likeness, ..check(&evidence, &person, thresholds, findings) }
 }
 
 /// The ground forces on the feet. Contact points transmit no moment, so the free moment is zero.

@@ -503,6 +503,9 @@ impl Judged<'_> {
         } else {
             of_measured.as_slice().iter().for_each(|finding| findings.add(finding.clone()));
         }
+        if matches!(force_origin, ForceOrigin::Simulated { .. }) && activity == ActivityKind::Walk {
+            verdict.likeness = feasibility::likeness(model, trajectory, person);
+        }
         verdict.add_unsupported(checks.map_or(&[], |checks| &checks.reasons));
         verdict
     }

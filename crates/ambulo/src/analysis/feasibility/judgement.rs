@@ -78,6 +78,7 @@ pub fn check(
         frames_predicted: coverage.predicted.iter().filter(|predicted| **predicted).count(),
         mass_kg: thresholds.mass_kg.unwrap_or(person.mass_kg),
         height_m: thresholds.height_m.unwrap_or(person.height_m),
+        likeness: Vec::new(),
         fit: coverage.fit(&limits),
     }
 }

@@ -12,6 +12,7 @@ mod frame;
 mod frame_reader;
 mod ground_speed;
 mod judgement;
+mod likeness;
 mod motion_and_forces;
 mod person;
 pub(crate) mod spans;
@@ -23,10 +24,13 @@ pub use frame::{CheckedPart, CheckedValue, FeasibilityLimits, FootFrame, Frame};
 pub use frame::{check_frame, least_load_n};
 pub use judgement::check;
 pub(crate) use judgement::inner_frames;
+pub use likeness::likeness;
 #[doc(hidden)]
 pub use motion_and_forces::{MotionAndForces, PredictedForces};
 pub use person::Person;
 pub use thresholds::Thresholds;
-pub use verdict::{Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, NotJudged, Reason, Verdict, VerdictState};
+pub use verdict::{
+    Check, Closest, FitOfForces, LARGE_RESIDUAL_BW, Likeness, LikenessMeasure, NotJudged, Reason, Verdict, VerdictState,
+};
 
 pub(super) use ground_speed::over_ground;

@@ -146,6 +146,10 @@ pub struct Verdict {
     pub mass_kg: f64,
     /// Stature used for the strength [m].
     pub height_m: f64,
+    /// How near a walk that a program made is to walks of people; nothing for motions of people. It does not change the
+    /// state.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub likeness: Vec<Likeness>,
     /// How well motion and ground forces fit together.
     #[serde(skip)]
     pub fit: FitOfForces,
@@ -169,6 +173,14 @@ pub struct FitOfForces {
 }
 
 impl Verdict {
+    /// What no person would do in a walk, the worst first.
+    #[must_use]
+    pub fn unlike_people(&self) -> Vec<&Likeness> {
+        let mut list: Vec<&Likeness> = self.likeness.iter().filter(|likeness| likeness.share > 1.0).collect();
+        list.sort_by(|a, b| b.share.total_cmp(&a.share));
+        list
+    }
+
     /// Adds what further checks of predicted forces found: forces that cannot act through the feet. Something else may
     /// support the person, so the verdict is undecided, and reasons that come from these forces are dropped.
     pub(crate) fn add_unsupported(&mut self, found: &[Reason]) {
@@ -242,4 +254,58 @@ pub struct NotJudged {
     pub check: Check,
     /// Why it was not made, and for which part.
     pub why: String,
+}
+
+/// What a walk is compared in with walks of people.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum LikenessMeasure {
+    /// Height of the lowest point of a swinging foot [m].
+    SwingHeight,
+    /// Angular speed of a hip, knee or ankle [deg/s].
+    JointSpeed,
+    /// Way of the pelvis back [m].
+    PelvisPath,
+}
+
+/// How near a walk is to walks of people in one measure, where it is farthest from them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Likeness {
+    /// The measure.
+    pub measure: LikenessMeasure,
+    /// The part of the body or the coordinate.
+    pub quantity: String,
+    /// The instant [s].
+    pub at_s: f64,
+    /// The value at that instant.
+    pub value: f64,
+    /// 1.5 times the largest value of people.
+    pub limit: f64,
+    /// Unit of both.
+    pub unit: Cow<'static, str>,
+    /// Share of the limit; above 1, no person walks so.
+    pub share: f64,
+    /// The same as a sentence.
+    pub message: String,
+}
+
+impl Likeness {
+    pub(super) fn new(
+        measure: LikenessMeasure,
+        quantity: String,
+        at_s: f64,
+        [value, limit]: [f64; 2],
+        message: String,
+    ) -> Likeness {
+        let unit = if measure == LikenessMeasure::JointSpeed { "deg/s" } else { "m" };
+        Likeness { measure, quantity, at_s, value, limit, unit: unit.into(), share: value / limit, message }
+    }
+}
+
+impl fmt::Display for LikenessMeasure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(word(self))
+    }
 }

@@ -65,7 +65,14 @@ fn without_ground(verdict: &Verdict) -> String {
     }
 }
 
+/// The sentence of the verdict, and what no person would do in a walk.
 fn sentence(verdict: &Verdict, basis: &Basis) -> String {
+    let unlike = verdict.unlike_people();
+    let unlike: Vec<String> = unlike.iter().map(|found| format!(" Unlike people: {}.", found.message)).collect();
+    judged(verdict, basis) + &unlike.concat()
+}
+
+fn judged(verdict: &Verdict, basis: &Basis) -> String {
     let person = format!("person of {:.1} kg and {:.2} m", verdict.mass_kg, verdict.height_m);
     let limits = basis.limits();
     match (verdict.state, &limits) {
