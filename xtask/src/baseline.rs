@@ -107,9 +107,10 @@ mod tests {
 
     #[test]
     fn rows_with_the_same_words_are_compared_number_by_number() {
-        let ours = "machine\nprocessor time   24.0 ms per trial of 1.3 s\n| new row | 3 |\npeak memory  10 MB\nfit  4 ms: met |\n";
-        let theirs = "processor time   48.0 ms per trial of 1.3 s\nold 1\npeak memory  5 MB\n| fit  8 ms: missed\n";
-        let found = table(ours, theirs, "abc");
+        let ours = "machine\nprocessor time   24.0 ms per trial of 1.3 s\n| new row | 3 |\npeak memory  10 MB\n";
+        let theirs = "processor time   48.0 ms per trial of 1.3 s\nold 1\npeak memory  5 MB\n";
+        let [ours, theirs] = [ours.to_owned() + "fit  4 ms: met |\n", theirs.to_owned() + "| fit  8 ms: missed\n"];
+        let found = table(&ours, &theirs, "abc");
         for row in [
             "processor time ms per trial of s:  24 / 48 = 0.50  1.3 / 1.3 = 1.00\n",
             "new row: not in abc\n",
