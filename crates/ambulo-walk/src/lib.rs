@@ -34,10 +34,11 @@ pub mod tuning;
 /// For the tests of this crate.
 #[doc(hidden)]
 pub mod internals {
+    pub use crate::control::activation::activated;
     pub use crate::control::figure::FigureWorld;
     pub use crate::control::linear::{Impedance, with_impedances};
     pub use crate::control::plan::{CyclePlan, PlannedStep, Root};
-    pub use crate::control::riccati::{Costs, StepMap, foreseen};
+    pub use crate::control::riccati::{Costs, StepMap};
     pub use crate::engine::joint::MOST;
     pub use crate::engine::signal::Instant as SignalInstant;
     pub use crate::gait::cyclic_curve::SteadyCurve;

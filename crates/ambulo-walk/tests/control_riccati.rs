@@ -1,6 +1,6 @@
 //! The discrete Riccati equation of a linear system with period n, x_{k+1} = A_k x_k + B_k u_k.
 
-use ambulo_walk::internals::{Costs, StepMap, foreseen};
+use ambulo_walk::internals::{Costs, StepMap};
 use nalgebra::DMatrix;
 
 fn scalar(x: f64) -> DMatrix<f64> {
@@ -19,20 +19,6 @@ fn a_constant_scalar_system_has_the_gain_of_the_quadratic_equation() {
     assert!((repeated[(0, 0)] - expected).abs() < 1e-9, "{repeated} instead of {expected}");
     for gain in (Costs { state: scalar(q), input: scalar(r) }).periodic(&steps).unwrap().0 {
         assert!((gain[(0, 0)] - expected).abs() < 1e-9, "{gain} instead of {expected}");
-    }
-}
-
-/// Without disturbance, an input that is computed ahead is the one that feedback without delay gives then.
-#[test]
-fn foreseen_gains_give_the_inputs_of_the_closed_system_ahead_of_time() {
-    let steps: Vec<StepMap> = [0.9, 1.2, 1.4].map(|a| StepMap { by_state: scalar(a), by_input: scalar(0.5) }).to_vec();
-    let gains = Costs { state: scalar(1.0), input: scalar(1.0) }.periodic(&steps).unwrap().0;
-    let ahead = foreseen(&steps, &gains, 2);
-    let mut x = 1.0;
-    for k in 0..6 {
-        let then = (k..k + 2).fold(x, |x, j| (steps[j % 3].by_state[0] - 0.5 * gains[j % 3][0]) * x);
-        assert!((ahead[k % 3][0] * x - gains[(k + 2) % 3][0] * then).abs() < 1e-14);
-        x *= steps[k % 3].by_state[0] - 0.5 * gains[k % 3][0];
     }
 }
 

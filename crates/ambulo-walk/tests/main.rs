@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "what a test measured or skipped is shown with --show-output")]
 
+mod control_activation;
 mod control_linear;
 mod control_riccati;
 mod control_schedule;

@@ -1,8 +1,11 @@
-//! Stopping from a walk and walking off: without outside forces, joined to the walk, and not from a fast walk.
+//! Stopping from a walk and walking off: without outside forces, joined to the walk, as people do, and not from a fast
+//! walk.
 
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
-use ambulo::model::anthropometry::{Build, Human, SegmentTable};
+use ambulo::model::anthropometry::{Build, Human, SegmentTable, SpherePart};
+use ambulo::model::full_body::full_body;
+use ambulo::model::{Movement, Side};
 use ambulo::optimal::{NO_ROOT_FORCE, Sample, Solution, StandingMovements};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 
@@ -37,7 +40,7 @@ fn apart(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3], forward: usize) -> [f64; 2] {
 
 #[test]
 fn a_slow_walk_is_stopped_and_begun_without_outside_forces() {
-    let human = Build::usual(SegmentTable::DeLevaMale).human().unwrap();
+    let human = full_body(&Build::usual(SegmentTable::DeLevaMale)).unwrap();
     let walk = walk(&human, StandingMovements::speed(&human));
     let StandingMovements { stop, start } = StandingMovements::find(&human, &walk).unwrap();
     let (forward, weight_n) = (human.model.coordinate("pelvis_tx").unwrap().index(), human.model.mass() * G);
@@ -61,10 +64,91 @@ fn a_slow_walk_is_stopped_and_begun_without_outside_forces() {
         assert!((impulse / movement.problem().duration_s - 1.0).abs() < 0.03, "{name}: {impulse}");
     }
     assert!(rest[1].iter().all(|rate| rate.abs() < 0.05), "{:?}", rest[1]);
+    feet_are_side_by_side(&stop);
+    starts_as_people_do(&human, &start, &walk);
+}
+
+/// Places of the heels forward [m], right and left.
+fn heels(motion: &Solution, sample: &Sample) -> [f64; 2] {
+    let soles = &motion.problem().soles;
+    Side::BOTH.map(|side| {
+        let heel = soles.iter().position(|sole| sole.side == side && sole.part == SpherePart::Heel).unwrap();
+        sample.contacts[heel].place.x
+    })
+}
+
+fn feet_are_side_by_side(stop: &Solution) {
+    let [right, left] = heels(stop, samples(stop).last().unwrap());
+    println!("heels {:.1} mm apart after the stop", 1e3 * (right - left));
+    assert!((right - left).abs() < 0.02, "{right} {left}");
+}
+
+/// Vertical force on a foot, a share of the weight.
+fn load(motion: &Solution, sample: &Sample, side: Side, weight_n: f64) -> f64 {
+    let of_side = motion.problem().soles.iter().zip(&sample.contacts).filter(|(sole, _)| sole.side == side);
+    of_side.map(|(_, contact)| contact.force.y).sum::<f64>() / weight_n
+}
+
+/// Centre of pressure of both feet [m], forward and to the right.
+fn center(sample: &Sample) -> [f64; 2] {
+    let load: f64 = sample.contacts.iter().map(|contact| contact.force.y).sum();
+    let of = |axis: usize| sample.contacts.iter().map(|c| c.force.y * c.place[axis]).sum::<f64>() / load;
+    [of(0), of(2)]
+}
+
+/// Times of the strikes of a foot after a swing, with its heel there.
+fn strikes(motion: &Solution, samples: &[Sample], side: Side, weight_n: f64) -> Vec<(f64, f64)> {
+    let loaded = |sample: &Sample| load(motion, sample, side, weight_n) > 0.05;
+    let pairs = samples.windows(2).filter(|pair| !loaded(&pair[0]) && loaded(&pair[1]));
+    // The heel slides a little while the foot comes down.
+    let settled = |time_s: f64| samples.iter().find(|sample| sample.time_s >= time_s + 0.15);
+    let own = usize::from(side == Side::Left);
+    pairs.filter_map(|pair| Some((pair[1].time_s, heels(motion, settled(pair[1].time_s)?)[own]))).collect()
+}
+
+/// As people do: the centre of pressure first moves back and towards the foot that will swing, the pelvis hardly moves
+/// back, no foot swings higher than in the walk, and the first step is shorter than a step of the walk.
+fn starts_as_people_do(human: &Human, start: &Solution, walk: &Solution) {
+    let (samples, weight_n) = (samples(start), human.model.mass() * G);
+    let off = samples.iter().position(|sample| load(start, sample, Side::Left, weight_n) < 0.002).unwrap();
+    let [from, right] = center(&samples[0]);
+    let before = &samples[..off];
+    let back = from - before.iter().map(|sample| center(sample)[0]).fold(f64::INFINITY, f64::min);
+    let shift = before.iter().map(|sample| right - center(sample)[1]);
+    let (farthest, left) = shift.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+    let steady = 0.5 * walk.speed() * walk.cycle_s();
+    let (first_s, first_x) = strikes(start, &samples, Side::Left, weight_n)[0];
+    let (second_s, second_x) = strikes(start, &samples, Side::Right, weight_n)[0];
+    let standing = heels(start, &samples[0])[0];
+    let steps = [first_x - standing, second_x - first_x].map(|length| length / steady);
+    let forward = human.model.anatomy().coordinate(Movement::PelvisForward, None).unwrap().0.index();
+    let place = |sample: &Sample| sample.posture[0][forward];
+    let rocked = place(&samples[0]) - samples.iter().map(place).fold(f64::INFINITY, f64::min);
+    let highest = |samples: &[Sample]| {
+        let heights = samples.iter().flat_map(|sample| sample.contacts.iter().map(|contact| 2.0 * contact.place.y));
+        heights.fold(0.0, f64::max)
+    };
+    let higher = highest(&samples) - highest(&self::samples(walk));
+    println!(
+        "start: centre of pressure {:.0} mm back and {:.0} mm to the left, farthest at {:.2} s; left foot off at {:.2} \
+         s, down at {first_s:.2} s; right foot down at {second_s:.2} s; steps {:.0} % and {:.0} % of {steady:.2} m; \
+         pelvis {:.0} mm back; soles {:.0} mm higher than in the walk",
+        1e3 * back,
+        1e3 * left,
+        samples[farthest].time_s,
+        samples[off].time_s,
+        100.0 * steps[0],
+        100.0 * steps[1],
+        1e3 * rocked,
+        1e3 * higher
+    );
+    assert!(back > 0.01 && left > 0.01 && samples[farthest].time_s < 0.6 * samples[off].time_s);
+    assert!((0.6..0.9).contains(&steps[0]) && (0.6..1.1).contains(&steps[1]), "{steps:?}");
+    assert!(rocked < 0.03 && higher < 0.03, "{rocked} {higher}");
 }
 
 #[test]
-fn a_fast_walk_is_not_stopped_within_a_step() {
+fn a_fast_walk_has_no_stop_and_start() {
     let human = Build::usual(SegmentTable::DeLevaMale).human().unwrap();
     let error = StandingMovements::find(&human, &walk(&human, 1.7)).err().unwrap();
     println!("{error}");

@@ -17,6 +17,7 @@
 //! seconds, once.
 //! Pinned by: tests/physical_walk.rs, tests/scene_walkers.rs.
 
+use super::activation::activated;
 use super::fall::{Fall, FallWatch};
 use super::feedback::{Feedback, delay_steps, share_of};
 use super::figure::FigureWorld;
@@ -59,12 +60,13 @@ impl WalkController {
         let mut plan = CyclePlan::new(human, solution, step.step_s)?;
         plan.set_torques(&human.model, solution.cycle_s(), &settings.torques)?;
         let feedback = Feedback::new(human, [plan.joints(), plan.places()], settings, step.step_s)?;
-        let (gains, value) = if settings.balance == Balance::WholeState {
+        let (gains, value, maps) = if settings.balance == Balance::WholeState {
             let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &feedback.impedances)?;
+            let maps = activated(maps, feedback.left);
             let (gains, value) = gains(human, &plan, &maps, settings, step.step_s)?;
-            (gains, Some(value))
+            (gains, Some(value), feedback.kept(maps))
         } else {
-            (Vec::new(), None)
+            (Vec::new(), None, Vec::new())
         };
         let body = Body::of(human);
         let soles_m = [0, 1].map(|foot| body.lowest(&plan.steps[plan.strikes[foot]].state[0])[foot]);
@@ -72,7 +74,7 @@ impl WalkController {
         let speed = solution.speed();
         Ok(WalkController {
             plan: WalkPlan {
-                paces: vec![Arc::new(Pace { speed, plan, gains, soles_m, value })],
+                paces: vec![Arc::new(Pace { speed, plan, gains, maps, soles_m, value })],
                 standing: None,
                 body: Arc::new(body),
                 speed,
@@ -106,8 +108,9 @@ impl WalkController {
         let feedback = self.feedback.with_settings(human, settings, step_s);
         let both = [&*self.feedback.impedances, &feedback.impedances];
         let maps = with_impedances(maps, &pace.plan, both, step_s).ok_or(ControlError::Riccati)?;
+        let maps = activated(maps, feedback.left);
         let (gains, value) = gains(human, &pace.plan, &maps, settings, step_s)?;
-        let pace = Pace { gains, value: Some(value), ..Pace::clone(pace) };
+        let pace = Pace { gains, value: Some(value), maps: feedback.kept(maps), ..Pace::clone(pace) };
         let plan = WalkPlan { paces: vec![Arc::new(pace)], standing: None, ..self.plan.clone() };
         Ok(WalkController { plan, feedback, ..self.clone() })
     }
@@ -184,8 +187,9 @@ impl WalkController {
             human,
             figure: FigureWorld::new(human, walk.problem().shoes, step)?,
             impedances: &self.feedback.impedances,
-            costs: costs(human, &pace.plan, &settings.costs, step.step_s),
-            delay: delay_steps(settings, step.step_s),
+            costs: costs(human, &pace.plan, settings, step.step_s),
+            is_late: delay_steps(settings, step.step_s) > 0,
+            left: self.feedback.left,
         };
         let standing = maker.standing(movements, &pace.plan, value, |q| self.plan.body.lowest(q))?;
         self.plan.standing = Some(Arc::new(standing));

@@ -1,7 +1,10 @@
 //! Torques by which a figure follows its plan: impedances of the joints, and feedback of the whole state.
 //!
 //!   k (q* - q) + d (q̇* - q̇)          impedance, with k = k₇₅ s m H / (75 kg · 1.75 m)
-//!   -K(φ) (x - x*)                   feedback, within ±c L F at ankles and toes, later by a delay
+//!   -K(φ) (x - x*)                   feedback, within ±c L F at ankles and toes
+//!
+//! Feedback that acts d time steps later takes the deviation then, x̂_{k+d}, from x̂_{j+1} = A_j x̂_j + B_j u_j with
+//! the feedback u_j that is on its way, as Smith's predictor does (1957; unverified).
 //!
 //! | code | symbol | unit | meaning |
 //! |---|---|---|---|
@@ -16,11 +19,14 @@
 //!
 //! Pinned by: tests/physical_walk.rs.
 
+use super::activation::left_over;
 use super::foot_placement::{Followed, PlacedFeet};
 use super::linear::Impedance;
 use super::phase::{Phase, Sensed};
 use super::plan::PlannedStep;
+use super::riccati::StepMap;
 use super::settings::{Balance, ControlError, ControlSettings};
+use super::standing::Moment;
 use super::walk_plan::WalkPlan;
 use crate::engine::Motor;
 use crate::model::anthropometry::Human;
@@ -51,6 +57,10 @@ pub(super) struct Feedback {
     placed_feet: Option<PlacedFeet>,
     /// Feedback that does not act yet, the oldest first.
     late: VecDeque<Vec<f64>>,
+    /// Share of a torque of feedback that is left after a time step; none where it acts at once.
+    pub(super) left: Option<f64>,
+    /// Torques of feedback that act now, one per coordinate [N.m].
+    acting: Vec<f64>,
 }
 
 impl Feedback {
@@ -66,14 +76,16 @@ impl Feedback {
             Balance::Nothing | Balance::WholeState => None,
         };
         let impedances = impedances(human, &joints, settings);
-        let late = late(human, settings, step_s);
-        Ok(Feedback { impedances, joints, places, levers: levers(human), placed_feet, late })
+        let (late, left) = (late(human, settings, step_s), left_over(settings, step_s));
+        let acting = vec![0.0; impedances.len()];
+        Ok(Feedback { impedances, joints, places, levers: levers(human), placed_feet, late, left, acting })
     }
 
     /// The same feedback with the impedances and the delay of other settings.
     pub(crate) fn with_settings(&self, human: &Human, settings: &ControlSettings, step_s: f64) -> Feedback {
         let impedances = impedances(human, &self.joints, settings);
-        Feedback { impedances, late: late(human, settings, step_s), ..self.clone() }
+        let (late, left) = (late(human, settings, step_s), left_over(settings, step_s));
+        Feedback { impedances, late, left, ..self.clone() }
     }
 
     /// Motors of a figure that has fallen.
@@ -93,10 +105,14 @@ impl Feedback {
     ) -> Vec<Option<Motor>> {
         let feedback = self.torques(plan, phase, planned, sensed);
         self.late.push_back(feedback);
-        let feedback = self.late.pop_front().unwrap_or_default();
+        let commanded = self.late.pop_front().unwrap_or_default();
+        let left = self.left.unwrap_or(0.0);
+        for (torque, command) in self.acting.iter_mut().zip(commanded) {
+            *torque = left * *torque + (1.0 - left) * command;
+        }
         let motor = |(c, impedance): (usize, &Impedance)| {
             let target = [planned.target[0][c], planned.target[1][c]];
-            let torque = planned.torques[c] + feedback[c];
+            let torque = planned.torques[c] + self.acting[c];
             (impedance.stiffness > 0.0).then(|| impedance.motor(target, torque, sensed.now[c]))
         };
         self.impedances.iter().enumerate().map(motor).collect()
@@ -118,8 +134,10 @@ impl Feedback {
         let higher = phase.level_m + (plan.height_ratio - 1.0) * planned.state[0][up];
         let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
-        let deviation = DVector::from_iterator(self.places.len() + now.len(), places.chain(rates));
-        if let Some(torques) = plan.feedback(phase.at, &deviation) {
+        let torques = self.joints.iter().filter(|_| self.left.is_some()).map(|joint| self.acting[*joint]);
+        let deviation = DVector::from_vec(places.chain(rates).chain(torques).collect());
+        let (at, deviation) = self.foreseen(plan, phase.at, deviation);
+        if let Some(torques) = plan.feedback(at, &deviation) {
             for (joint, torque) in self.joints.iter().zip(torques.iter()) {
                 let most =
                     self.levers[*joint].map_or(f64::INFINITY, |(foot, lever_m)| lever_m * loads_n[foot].max(0.0));
@@ -127,6 +145,20 @@ impl Feedback {
             }
         }
         feedback
+    }
+
+    /// When feedback of now will act, and the deviation of the state then: the feedback until then is known.
+    fn foreseen(&self, plan: &WalkPlan, now: Moment, deviation: DVector<f64>) -> (Moment, DVector<f64>) {
+        self.late.iter().fold((now, deviation), |(at, deviation), feedback| {
+            let inputs = DVector::from_iterator(self.joints.len(), self.joints.iter().map(|joint| feedback[*joint]));
+            let after = plan.after(at, &deviation, &inputs).unwrap_or(deviation);
+            (plan.later(at), after)
+        })
+    }
+
+    /// Maps of time steps, where feedback has to foresee the state.
+    pub(super) fn kept(&self, maps: Vec<StepMap>) -> Vec<StepMap> {
+        if self.late.is_empty() { Vec::new() } else { maps }
     }
 
     /// The largest stiffness of a coordinate by its own angle, impedance and feedback together [N.m/rad].

@@ -10,10 +10,11 @@
 //!
 //! [`super::riccati`] has the equation of the gains K and of the matrix P.
 
-use super::feedback::{delay_steps, share_of, size_of};
+use super::activation::left_over;
+use super::feedback::{share_of, size_of};
 use super::plan::{CyclePlan, Root};
-use super::riccati::{Costs, StepMap, foreseen};
-use super::settings::{ControlError, ControlSettings, TrackingCosts};
+use super::riccati::{Costs, StepMap};
+use super::settings::{ControlError, ControlSettings};
 use crate::model::anthropometry::Human;
 use crate::optimal::StandingMovements;
 use nalgebra::{DMatrix, DVector};
@@ -26,15 +27,16 @@ pub(super) fn gains(
     settings: &ControlSettings,
     step_s: f64,
 ) -> Result<(Vec<DMatrix<f64>>, DMatrix<f64>), ControlError> {
-    let (costs, delay) = (costs(human, plan, &settings.costs, step_s), delay_steps(settings, step_s));
+    let costs = costs(human, plan, settings, step_s);
     let (gains, mut value) = costs.periodic(maps).ok_or(ControlError::Riccati)?;
-    let joined = (plan.step_at(StandingMovements::JOINS[1]) + delay) % maps.len();
+    let joined = plan.step_at(StandingMovements::JOINS[1]);
     costs.gains(&maps[joined..], &mut value).ok_or(ControlError::Riccati)?;
-    Ok((foreseen(maps, &gains, delay), value))
+    Ok((gains, value))
 }
 
 /// The diagonal matrices Q and R of a time step.
-pub(super) fn costs(human: &Human, plan: &CyclePlan, costs: &TrackingCosts, step_s: f64) -> Costs {
+pub(super) fn costs(human: &Human, plan: &CyclePlan, settings: &ControlSettings, step_s: f64) -> Costs {
+    let costs = &settings.costs;
     let Root { forward, up, sideways, turns } = &plan.root;
     let place = |c: usize| match c {
         c if c == *up => costs.height,
@@ -50,9 +52,14 @@ pub(super) fn costs(human: &Human, plan: &CyclePlan, costs: &TrackingCosts, step
     let torque = |c: &usize| costs.torque * share_of(human, *c).0 * size_of(human);
     let of_state = plan.places().into_iter().map(place).chain((0..human.model.coordinates().len()).map(rate));
     let of_input = plan.joints();
+    // Torques on their way cost as commands.
+    let on_their_way = left_over(settings, step_s).map_or(0, |_| of_input.len());
     let diagonal = |deviations: Vec<f64>| {
         let squares = deviations.iter().map(|deviation| step_s / (deviation * deviation));
         DMatrix::from_diagonal(&DVector::from_iterator(deviations.len(), squares))
     };
-    Costs { state: diagonal(of_state.collect()), input: diagonal(of_input.iter().map(torque).collect()) }
+    Costs {
+        state: diagonal(of_state.chain(vec![f64::INFINITY; on_their_way]).collect()),
+        input: diagonal(of_input.iter().map(torque).collect()),
+    }
 }

@@ -25,6 +25,7 @@
 //! here); phase reset at foot strike as in Aoi, Tsuchiya 2005 (unverified). docs/PHYSICAL_WALK.md has results and
 //! limits. Not handled: turning; activation of muscles.
 
+pub(crate) mod activation;
 mod controller;
 mod fall;
 mod feedback;

@@ -1,6 +1,7 @@
 //! Plans at several speeds, and interpolation between two of them.
 
 use super::plan::{CyclePlan, PlannedStep};
+use super::riccati::StepMap;
 use nalgebra::{DMatrix, DVector};
 
 /// A plan at one speed, and its gains.
@@ -11,10 +12,11 @@ pub(super) struct Pace {
     pub(super) plan: CyclePlan,
     /// Gains of each time step: one row per joint, one column per entry of the state. Empty without feedback.
     pub(super) gains: Vec<DMatrix<f64>>,
+    /// Maps of each time step, by which late feedback foresees the state; empty where feedback acts at once.
+    pub(super) maps: Vec<StepMap>,
     /// Height of the sole of the right and the left foot when it strikes [m].
     pub(super) soles_m: [f64; 2],
-    /// Matrix P of the Riccati equation where a start from standing joins the walk, later by the delay of feedback;
-    /// none without gains.
+    /// Matrix P of the Riccati equation where a start from standing joins the walk; none without gains.
     pub(super) value: Option<DMatrix<f64>>,
 }
 
@@ -45,6 +47,13 @@ impl Between<'_> {
     /// K times a deviation of the state.
     pub(super) fn feedback(&self, phase: f64, apart: &DVector<f64>) -> Option<DVector<f64>> {
         let of = |pace: &Pace| pace.gains.get(pace.plan.step_at(phase)).map(|gain| gain * apart);
+        let first = of(self.paces[0])?;
+        if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
+    }
+
+    /// The deviation of the state after a time step; none without maps.
+    pub(super) fn after(&self, phase: f64, apart: &DVector<f64>, inputs: &DVector<f64>) -> Option<DVector<f64>> {
+        let of = |pace: &Pace| pace.maps.get(pace.plan.step_at(phase)).map(|map| map.after(apart, inputs));
         let first = of(self.paces[0])?;
         if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
     }

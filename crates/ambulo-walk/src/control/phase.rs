@@ -16,8 +16,8 @@
 //! Pinned by: tests/physical_walk.rs.
 
 use super::plan::STRIKE;
-use super::standing::Stage;
-use super::walk_plan::{Moment, WalkPlan};
+use super::standing::{Moment, Stage};
+use super::walk_plan::WalkPlan;
 use crate::model::Model;
 use crate::optimal::StandingMovements;
 
@@ -65,7 +65,7 @@ impl Phase {
     /// The start of the cycle of a figure.
     pub(super) fn new(model: &Model, step_s: f64) -> Phase {
         Phase {
-            at: Moment { share: 0.0, stage: Stage::Walking },
+            at: Moment { share: 0.0, stage: Stage::Walking, is_mirrored: false },
             stands: false,
             stance: 0,
             strikes: 0,
@@ -118,7 +118,7 @@ impl Phase {
         self.time_s += self.step_s;
         if let Some(standing) = plan.standing.as_ref().filter(|_| self.at.stage != Stage::Walking) {
             self.at.stage = standing.next(self.at.stage, self.stands);
-            self.at.share = StandingMovements::JOINS[usize::from(self.at.stage == Stage::Walking)];
+            self.at.share = self.at.joins(StandingMovements::JOINS[usize::from(self.at.stage == Stage::Walking)]);
             return;
         }
         let between = plan.between();
@@ -130,10 +130,14 @@ impl Phase {
         let late = is_late(0) || is_late(1);
         self.waited_s = if late { self.waited_s + self.step_s } else { 0.0 };
         if !late || self.waited_s > LONGEST_WAIT_S {
-            let until = (StandingMovements::JOINS[0] - self.at.share).rem_euclid(1.0);
-            self.at.share = (self.at.share + step).rem_euclid(1.0);
-            if self.stands && until > 0.0 && until <= step {
-                self.at.stage = Stage::Stopping(0);
+            let before = self.at.share;
+            self.at.share = (before + step).rem_euclid(1.0);
+            for is_mirrored in plan.standing.iter().flat_map(|standing| standing.images()) {
+                let joins = Moment { is_mirrored, ..self.at }.joins(StandingMovements::JOINS[0]);
+                let until = (joins - before).rem_euclid(1.0);
+                if self.stands && until > 0.0 && until <= step {
+                    (self.at.stage, self.at.is_mirrored) = (Stage::Stopping(0), is_mirrored);
+                }
             }
         }
     }

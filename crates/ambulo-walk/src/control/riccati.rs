@@ -18,7 +18,7 @@
 //! time with twice as many digits.
 
 use crate::numerics::product;
-use nalgebra::{Cholesky, DMatrix, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// One step of the system.
 #[derive(Debug, Clone)]
@@ -27,6 +27,13 @@ pub struct StepMap {
     pub by_state: DMatrix<f64>,
     /// B.
     pub by_input: DMatrix<f64>,
+}
+
+impl StepMap {
+    /// The state after the step.
+    pub fn after(&self, state: &DVector<f64>, inputs: &DVector<f64>) -> DVector<f64> {
+        &self.by_state * state + &self.by_input * inputs
+    }
 }
 
 /// P is periodic when it changes by less than this share in a doubling; the next one would change it by the square.
@@ -167,19 +174,4 @@ impl Passage {
 /// A matrix that is symmetric but for rounding.
 fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     (matrix + matrix.transpose()) * 0.5
-}
-
-/// Gains for inputs that act `delay` steps later: the state then is foreseen by the closed system, u_{k+d} = -K_{k+d}
-/// (Π (A_j - B_j K_j)) x_k.
-pub fn foreseen(steps: &[StepMap], gains: &[DMatrix<f64>], delay: usize) -> Vec<DMatrix<f64>> {
-    if delay == 0 {
-        return gains.to_vec();
-    }
-    let count = steps.len();
-    let closed: Vec<DMatrix<f64>> =
-        steps.iter().zip(gains).map(|(step, gain)| &step.by_state - product(&step.by_input, gain)).collect();
-    let of = |k: usize| {
-        (k..k + delay).rev().fold(gains[(k + delay) % count].clone(), |row, j| product(&row, &closed[j % count]))
-    };
-    (0..count).map(of).collect()
 }

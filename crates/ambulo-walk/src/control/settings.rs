@@ -18,6 +18,9 @@ pub struct ControlSettings {
     pub balance: Balance,
     /// Time after which feedback of the state acts [s]; the state then is foreseen. Muscles need some 40 ms.
     pub delay_s: f64,
+    /// Time constant with which torques of feedback follow their command [s], as muscle forces follow activation; 0: at
+    /// once.
+    pub activation_s: f64,
     /// Torques along the plan.
     pub torques: TorqueCurves,
     /// Deviations that cost 1 per second.
@@ -84,6 +87,7 @@ impl Default for ControlSettings {
             damping_s: 0.1,
             balance: Balance::WholeState,
             delay_s: 0.0,
+            activation_s: 0.0,
             torques: TorqueCurves::Plan,
             costs: TrackingCosts {
                 angle: 0.1,
@@ -101,7 +105,7 @@ impl Default for ControlSettings {
 impl ControlSettings {
     /// Gains that survive stronger pushes than the default ones, for planar figures whose feedback acts at once: found
     /// by [`crate::tuning`] for a woman of 60 kg at 1.2 m/s. In three dimensions they survive fewer pushes from the
-    /// side, and with feedback that acts 20 ms later figures fall (docs/measured/PHYSICAL_WALK.md).
+    /// side, and with late feedback they survive fewer than the default ones (docs/measured/PHYSICAL_WALK.md).
     #[must_use]
     pub fn tuned_in_the_plane() -> ControlSettings {
         let default = ControlSettings::default();

@@ -4,10 +4,11 @@
 //! from the walk that it joins. Standing is a plan of one time step that repeats. Feet that stand cannot be moved by
 //! torques, so that a deviation of their place would cost for ever: standing looks ahead for some seconds only.
 
+use super::activation::activated;
 use super::figure::FigureWorld;
 use super::linear::Impedance;
 use super::plan::{CyclePlan, PlannedStep};
-use super::riccati::{Costs, foreseen};
+use super::riccati::{Costs, StepMap};
 use super::settings::ControlError;
 use crate::model::anthropometry::Human;
 use crate::optimal::{Solution, StandingMovements};
@@ -25,12 +26,31 @@ pub(super) enum Stage {
     Starting(usize),
 }
 
+/// A place in the plan.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    /// Share of the cycle φ, 0 to 1.
+    pub(super) share: f64,
+    pub(super) stage: Stage,
+    /// Whether a stop and the start after it are the mirror images of the plan: the right foot steps first.
+    pub(super) is_mirrored: bool,
+}
+
+impl Moment {
+    /// The share of the cycle at which a movement joins the walk, or its mirror image half a cycle later.
+    pub(super) fn joins(self, share: f64) -> f64 {
+        if self.is_mirrored { (share + 0.5).rem_euclid(1.0) } else { share }
+    }
+}
+
 /// Plans and gains of a movement.
 #[derive(Debug, Clone)]
 struct Movement {
     steps: Vec<PlannedStep>,
     /// One row per joint, one column per entry of the state.
     gains: Vec<DMatrix<f64>>,
+    /// Empty where feedback acts at once.
+    maps: Vec<StepMap>,
 }
 
 /// Standing, and how a figure comes there and walks off.
@@ -42,6 +62,47 @@ pub(super) struct Standing {
     start: Movement,
     /// Height of the sole of the right and the left foot [m].
     pub(super) soles_m: [f64; 2],
+    /// The mirror images of these movements, if the walk is its own mirror image.
+    image: Option<Image>,
+}
+
+/// Where entries come from in a mirror image, and their signs.
+#[derive(Debug, Clone)]
+struct Image {
+    coordinates: Vec<(usize, f64)>,
+    /// Entries of the state.
+    state: Vec<(usize, f64)>,
+    joints: Vec<(usize, f64)>,
+}
+
+impl Image {
+    /// `has_torques`: the torques of the joints are a part of the state.
+    fn of(walk: &CyclePlan, has_torques: bool) -> Option<Image> {
+        let coordinates = walk.mirror.clone()?;
+        let among = |some: &[usize]| -> Option<Vec<(usize, f64)>> {
+            let place = |c: &usize| {
+                let (other, sign) = coordinates[*c];
+                Some((some.iter().position(|own| *own == other)?, sign))
+            };
+            some.iter().map(place).collect()
+        };
+        let (places, joints) = (among(&walk.places())?, among(&walk.joints())?);
+        let rates = coordinates.iter().map(|(c, sign)| (places.len() + c, *sign));
+        let first = places.len() + coordinates.len();
+        let torques = joints.iter().filter(|_| has_torques).map(|(k, sign)| (first + k, *sign));
+        let state = places.iter().copied().chain(rates).chain(torques).collect();
+        Some(Image { state, joints, coordinates })
+    }
+
+    fn step(&self, step: &PlannedStep) -> PlannedStep {
+        let image = |values: &Vec<f64>| self.coordinates.iter().map(|(c, sign)| sign * values[*c]).collect();
+        let both = |state: &[Vec<f64>; 2]| state.each_ref().map(image);
+        PlannedStep { state: both(&step.state), target: both(&step.target), torques: image(&step.torques) }
+    }
+}
+
+fn imaged(values: &DVector<f64>, entries: &[(usize, f64)]) -> DVector<f64> {
+    DVector::from_iterator(entries.len(), entries.iter().map(|(k, sign)| sign * values[*k]))
 }
 
 impl Standing {
@@ -55,14 +116,41 @@ impl Standing {
     }
 
     /// The plan in a stage; none while it walks.
-    pub(super) fn planned(&self, stage: Stage) -> Option<&PlannedStep> {
-        self.at(stage).and_then(|(movement, step)| movement.steps.get(step))
+    pub(super) fn planned(&self, at: Moment) -> Option<PlannedStep> {
+        let (movement, step) = self.at(at.stage)?;
+        let step = movement.steps.get(step)?;
+        Some(self.image(at).map_or_else(|| step.clone(), |image| image.step(step)))
     }
 
     /// K times a deviation of the state; none while it walks.
-    pub(super) fn feedback(&self, stage: Stage, apart: &DVector<f64>) -> Option<DVector<f64>> {
-        let gain = self.at(stage).and_then(|(movement, step)| movement.gains.get(step))?;
-        Some(gain * apart)
+    pub(super) fn feedback(&self, at: Moment, apart: &DVector<f64>) -> Option<DVector<f64>> {
+        let (movement, step) = self.at(at.stage)?;
+        let gain = movement.gains.get(step)?;
+        Some(match self.image(at) {
+            Some(image) => imaged(&(gain * imaged(apart, &image.state)), &image.joints),
+            None => gain * apart,
+        })
+    }
+
+    /// The deviation of the state after a time step; none while it walks.
+    pub(super) fn after(&self, at: Moment, apart: &DVector<f64>, inputs: &DVector<f64>) -> Option<DVector<f64>> {
+        let (movement, step) = self.at(at.stage)?;
+        let map = movement.maps.get(step)?;
+        Some(match self.image(at) {
+            Some(image) => {
+                imaged(&map.after(&imaged(apart, &image.state), &imaged(inputs, &image.joints)), &image.state)
+            }
+            None => map.after(apart, inputs),
+        })
+    }
+
+    fn image(&self, at: Moment) -> Option<&Image> {
+        self.image.as_ref().filter(|_| at.is_mirrored)
+    }
+
+    /// Whether movements are the mirror images of the plan, for all that there are.
+    pub(super) fn images(&self) -> impl Iterator<Item = bool> {
+        [false].into_iter().chain(self.image.iter().map(|_| true))
     }
 
     /// Gains of all stages.
@@ -89,13 +177,15 @@ pub(super) struct Maker<'a> {
     pub(super) figure: FigureWorld,
     pub(super) impedances: &'a [Impedance],
     pub(super) costs: Costs,
-    /// Time steps after which feedback acts.
-    pub(super) delay: usize,
+    /// Whether feedback acts later, so that it must foresee the state.
+    pub(super) is_late: bool,
+    /// Share of a torque of feedback that is left after a time step; none where it acts at once.
+    pub(super) left: Option<f64>,
 }
 
 impl Maker<'_> {
-    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation, `delay` steps later;
-    /// `lowest` are heights of soles.
+    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation; `lowest` are heights of
+    /// soles.
     pub(super) fn standing(
         &mut self,
         movements: &StandingMovements,
@@ -105,36 +195,34 @@ impl Maker<'_> {
     ) -> Result<Standing, ControlError> {
         let stands = standing_step(&movements.stop)?;
         let soles_m = lowest(&stands.state[0]);
-        let maps = self.figure.maps(&walk.with_steps(vec![stands.clone()]), self.impedances)?;
+        let maps = self.maps(&walk.with_steps(vec![stands.clone()]))?;
         let times = (AHEAD_S / self.figure.settings.step_s) as usize;
         let (gain, of_standing) = self.costs.repeated(&maps[0], times).ok_or(ControlError::Riccati)?;
-        let stand = Movement { gains: foreseen(&maps, &[gain], self.delay), steps: vec![stands.clone()] };
-        let stop = self.movement(&movements.stop, walk, vec![stands; self.delay], of_standing)?;
-        let joined = walk.step_at(StandingMovements::JOINS[1]);
-        let after = (joined..joined + self.delay).map(|k| walk.steps[k % walk.steps.len()].clone()).collect();
-        let start = self.movement(&movements.start, walk, after, value.clone())?;
-        Ok(Standing { stop, stand, start, soles_m })
+        let stand = Movement { gains: vec![gain], steps: vec![stands], maps: self.kept(maps) };
+        let stop = self.movement(&movements.stop, walk, of_standing)?;
+        let start = self.movement(&movements.start, walk, value.clone())?;
+        Ok(Standing { stop, stand, start, soles_m, image: Image::of(walk, self.left.is_some()) })
     }
 
-    /// A movement followed by the steps `after`, with the matrix P of the Riccati equation after these.
+    /// A movement with the matrix P of the Riccati equation after it.
     fn movement(
         &mut self,
         solution: &Solution,
         walk: &CyclePlan,
-        after: Vec<PlannedStep>,
         mut value: DMatrix<f64>,
     ) -> Result<Movement, ControlError> {
-        let mut steps = CyclePlan::new(self.human, solution, self.figure.settings.step_s)?.steps;
-        let count = steps.len();
-        steps.extend(after);
-        let plan = walk.with_steps(steps);
-        let maps = self.figure.maps(&plan, self.impedances)?;
+        let plan = walk.with_steps(CyclePlan::new(self.human, solution, self.figure.settings.step_s)?.steps);
+        let maps = self.maps(&plan)?;
         let gains = self.costs.gains(&maps, &mut value).ok_or(ControlError::Riccati)?;
-        let mut gains = foreseen(&maps, &gains, self.delay);
-        gains.truncate(count);
-        let mut steps = plan.steps;
-        steps.truncate(count);
-        Ok(Movement { steps, gains })
+        Ok(Movement { steps: plan.steps, gains, maps: self.kept(maps) })
+    }
+
+    fn maps(&mut self, plan: &CyclePlan) -> Result<Vec<StepMap>, ControlError> {
+        Ok(activated(self.figure.maps(plan, self.impedances)?, self.left))
+    }
+
+    fn kept(&self, maps: Vec<StepMap>) -> Vec<StepMap> {
+        if self.is_late { maps } else { Vec::new() }
     }
 }
 

@@ -18,25 +18,18 @@
 use super::pace::{Between, Pace};
 use super::plan::{PlannedStep, Root};
 use super::settings::ControlError;
-use super::standing::{Stage, Standing};
+use super::standing::{Moment, Stage, Standing};
 use crate::engine::soles::lowest;
 use crate::kinematics::{Posture, body_motion};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{Model, Side};
+use crate::optimal::StandingMovements;
 use crate::walking::TorqueSeries;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// Speeds that differ by less are the same [m/s].
 pub(super) const SPEED_ROUNDING: f64 = 1e-6;
-
-/// A place in the plan.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Moment {
-    /// Share of the cycle φ, 0 to 1.
-    pub(super) share: f64,
-    pub(super) stage: Stage,
-}
 
 /// The figure, as far as heights of its soles depend on it.
 #[derive(Debug, Clone)]
@@ -106,14 +99,34 @@ impl WalkPlan {
 
     /// The planned time step.
     pub(super) fn step(&self, at: Moment) -> PlannedStep {
-        let standing = self.standing.as_ref().and_then(|standing| standing.planned(at.stage));
-        standing.cloned().unwrap_or_else(|| self.between().planned(at.share))
+        let standing = self.standing.as_ref().and_then(|standing| standing.planned(at));
+        standing.unwrap_or_else(|| self.between().planned(at.share))
     }
 
     /// K(φ) (x - x*) [N.m], one torque per joint, for the deviation x - x* of the state; none without gains.
     pub(super) fn feedback(&self, at: Moment, deviation: &DVector<f64>) -> Option<DVector<f64>> {
-        let of_standing = self.standing.as_ref().and_then(|standing| standing.feedback(at.stage, deviation));
+        let of_standing = self.standing.as_ref().and_then(|standing| standing.feedback(at, deviation));
         of_standing.or_else(|| self.between().feedback(at.share, deviation))
+    }
+
+    /// The deviation of the state after a time step with feedback torques of the joints [N.m]; none without maps.
+    pub(super) fn after(&self, at: Moment, deviation: &DVector<f64>, inputs: &DVector<f64>) -> Option<DVector<f64>> {
+        let of_standing = self.standing.as_ref().and_then(|standing| standing.after(at, deviation, inputs));
+        of_standing.or_else(|| self.between().after(at.share, deviation, inputs))
+    }
+
+    /// The moment of the plan a time step later.
+    pub(super) fn later(&self, at: Moment) -> Moment {
+        let stage = match &self.standing {
+            Some(standing) if at.stage != Stage::Walking => standing.next(at.stage, true),
+            _ => Stage::Walking,
+        };
+        let share = match (at.stage, stage) {
+            (Stage::Walking, _) => at.share + 1.0 / self.between().mix(|pace| pace.plan.steps.len() as f64),
+            (_, Stage::Walking) => at.joins(StandingMovements::JOINS[1]),
+            _ => at.share,
+        };
+        Moment { share: share.rem_euclid(1.0), stage, ..at }
     }
 
     /// Gains of all time steps of all plans.

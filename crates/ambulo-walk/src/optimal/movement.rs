@@ -20,6 +20,7 @@ use crate::dynamics::CurvedJointError;
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{Coordinate, CoordinateId, CoordinateKind, Model, Movement, Side};
 use std::fmt;
+use std::ops::Range;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Deviations that cost 1 in the first and the last instant: joint angles [rad]; rates [rad/s, m/s]; accelerations
@@ -120,7 +121,14 @@ impl MovementProblem {
         let guess = first_guess(&problem, soles.len(), keys, flights_s)?;
         let last = guess.len() - 1;
         let still = vec![0.0; human.model.coordinates().len()];
-        let ends = [0, last].map(|instant| End { instant, place: &guess[instant], rates: &still, is_exact: false });
+        let nearness = Nearness::Joints(REST[0]);
+        let ends = [0, last].map(|instant| End {
+            instants: instant..instant + 1,
+            place: &guess[instant],
+            rates: &still,
+            nearness,
+            count: 1.0,
+        });
         let mut movement = MovementProblem::of_guess(human, costs, problem, &guess, &ends, |muscles| muscles.joints())?;
         if let Some((height, _)) = human.model.anatomy().coordinate(Movement::PelvisUp, None) {
             movement.problem.settle(&mut movement.guess, height)?;
@@ -173,12 +181,21 @@ impl MovementProblem {
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
     pub fn solve(&self) -> Result<Solution, CurvedJointError> {
-        let stages = longer(&NEAR_STAGES);
         let near = self.guided(1.0)?.solve(&self.guess, &STAGES)?;
-        let far = self.guided(LESS_GUIDED)?.solve(near.unknowns(), &stages)?;
+        self.unguided(&self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?)
+    }
+
+    /// As [`MovementProblem::solve`], in less time, where the first guess is near the solution.
+    pub(super) fn solve_near_guess(&self) -> Result<Solution, CurvedJointError> {
+        self.unguided(&self.guided(1.0)?.solve(&self.guess, &STAGES)?)
+    }
+
+    /// Solves the problem without the first guess, from a solution near it.
+    fn unguided(&self, guided: &Solution) -> Result<Solution, CurvedJointError> {
+        let stages = longer(&NEAR_STAGES);
         let on = Continuation::on(&stages);
         // Where the last stage alone is stuck, those before it lead out.
-        self.problem.balanced(self.problem.solve(far.unknowns(), &stages)?, &[&on, &stages, &on], &[])
+        self.problem.balanced(self.problem.solve(guided.unknowns(), &stages)?, &[&on, &stages, &on], &[])
     }
 
     /// The problem with a cost of deviations from the first guess.
@@ -348,15 +365,24 @@ pub(super) fn posture(model: &Model, key: &Key) -> Vec<f64> {
     model.coordinate_ids().map(value).collect()
 }
 
-/// The state at the first or the last instant.
+/// The state at the first or the last instants.
 pub(super) struct End<'a> {
-    pub(super) instant: usize,
+    pub(super) instants: Range<usize>,
     /// Coordinates [rad, m] and rates [rad/s, m/s].
     pub(super) place: &'a [f64],
     pub(super) rates: &'a [f64],
-    /// Whether all coordinates but the place forward are required nearly exactly; otherwise only coordinates of joints,
-    /// roughly.
-    pub(super) is_exact: bool,
+    pub(super) nearness: Nearness,
+    /// How often it counts.
+    pub(super) count: f64,
+}
+
+/// How near a movement comes to a given state at an end.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Nearness {
+    /// Coordinates of joints, with the deviation that costs 1 [rad].
+    Joints(f64),
+    /// All coordinates but the place forward.
+    All,
 }
 
 impl End<'_> {
@@ -364,21 +390,25 @@ impl End<'_> {
         let root: Vec<CoordinateId> = problem.root().into_iter().map(|(id, _)| id).collect();
         let forward = problem.model.anatomy().coordinate(Movement::PelvisForward, None).map(|(id, _)| id);
         let at = |value: f64| -> Vec<Option<f64>> {
-            (0..problem.instants()).map(|k| (k == self.instant).then_some(value)).collect()
+            (0..problem.instants()).map(|k| self.instants.contains(&k).then_some(value)).collect()
         };
         let is_rest = self.rates.iter().all(|rate| rate.abs() <= 0.0);
         let mut terms = Vec::new();
         for id in problem.model.coordinate_ids() {
             let mut add = |quantity, value, deviation| {
-                let (name, targets) = ("end".to_owned(), at(value));
+                let (name, targets, deviation) = ("end".to_owned(), at(value), deviation / self.count.sqrt());
                 terms.push(Term { name, quantity, targets, deviation, bound: Bound::Near });
             };
             let place = self.place[id.index()];
             let deviation = match id {
-                id if Some(id) == forward => Some(0.05 * problem.length_m),
-                _ if self.is_exact => Some(JOINED[0]),
-                id if root.contains(&id) => None,
-                _ => Some(REST[0]),
+                id if Some(id) == forward && !(is_rest && matches!(self.nearness, Nearness::All)) => {
+                    Some(0.05 * problem.length_m)
+                }
+                id => match self.nearness {
+                    Nearness::All => Some(JOINED[0]),
+                    Nearness::Joints(_) if root.contains(&id) => None,
+                    Nearness::Joints(deviation) => Some(deviation),
+                },
             };
             if let Some(deviation) = deviation {
                 add(Quantity::Position(vec![(id, 1.0)]), place, deviation);

@@ -44,8 +44,8 @@ pub enum Quantity {
     },
     /// Height of a sphere above the ground [m].
     Height(usize),
-    /// Sideways position of the centre of a sphere, along z [m].
-    Sideways(usize),
+    /// Position of the centre of a sphere along x (0) or z (2) [m].
+    Place(usize, usize),
     /// Slip velocity of a sphere along x (0) or z (1) [m/s], multiplied by N / (N + `light_n`), where N is the vertical
     /// force on it [N].
     Slip {
@@ -135,7 +135,7 @@ impl Quantity {
                 spheres.iter().map(|&s| offset(&at.contacts[s].values)).sum()
             }
             Quantity::Height(sphere) => at.contacts[*sphere].values.height,
-            Quantity::Sideways(sphere) => at.contacts[*sphere].values.place_z,
+            Quantity::Place(sphere, axis) => at.contacts[*sphere].values.place_along(*axis),
             Quantity::Slip { sphere, axis, light_n } => {
                 let ContactValues { force, slip, .. } = &at.contacts[*sphere].values;
                 slip[*axis] * force.y / (force.y + light_n)
@@ -193,7 +193,7 @@ impl Quantity {
                 slopes.force.y * offset + values.force.y * slopes.place_along(*axis)
             }),
             Quantity::Height(sphere) => contact(&[*sphere], &|_, slopes| slopes.height),
-            Quantity::Sideways(sphere) => contact(&[*sphere], &|_, slopes| slopes.place_z),
+            Quantity::Place(sphere, axis) => contact(&[*sphere], &|_, slopes| slopes.place_along(*axis)),
             Quantity::Slip { sphere, axis, light_n } => contact(&[*sphere], &|sphere, slopes| {
                 let ContactValues { force, slip, .. } = &at.contacts[sphere].values;
                 let weight = force.y / (force.y + light_n);

@@ -128,7 +128,7 @@ impl MuscleTerms<'_> {
             let target = half(sole.side) + sole.center.z - sum / count;
             let swing = cleared(sphere).unwrap_or_default();
             let stands = swing.iter().map(|swings| swings.is_none().then_some(target)).collect();
-            let quantity = Quantity::Sideways(sphere);
+            let quantity = Quantity::Place(sphere, 2);
             terms.push(Term {
                 name: "step width".to_owned(),
                 quantity,

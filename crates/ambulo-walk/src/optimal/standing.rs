@@ -1,36 +1,54 @@
 //! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
 //!
-//! A stop begins in a walk, when the left foot has left the ground, and ends at rest on both feet; a start ends in the
-//! walk before the left foot strikes. In between, the cost of muscles is minimised, as in other movements. The first
-//! guess mixes the walk, which slows down or speeds up, with the posture of standing, and keeps the right foot where it
-//! is. Without bounds of the load on the ground, some starts hop, which is a local minimum.
+//! A stop begins in a walk, when the left foot has left the ground: the left foot steps, the right one comes beside it,
+//! and the figure rests. A start begins there: the load moves to the right foot, the left foot makes a short step, the
+//! right one a longer one, and the next step of the left foot is the walk. In between, the cost of muscles is
+//! minimised, as in other movements. The first guess mixes the walk with the posture of standing, with the foot that
+//! carries where it came to stand.
 //!
-//! The right foot alone is on the ground while the body slows down, so fast walks cannot be stopped in this way: the
-//! extrapolated mass centre x + v √(l/g) must not be beyond the toes (Hof, Gazendam, Sinke 2005; unverified).
+//! What people do follows from the cost and from bounds, not from a recorded start: the centre of pressure first moves
+//! back and towards the foot that will swing (Applied Sciences 10:244, introduction read; PMC5366317, figure 2),
+//! because the body must fall forward and over the other foot; after two shorter steps the walk is steady, as that of
+//! people is by the third step ("How many steps are needed to reach steady-state walking speed after gait initiation?",
+//! abstract read). Bounds say how long the first step is and how high soles are, that the pelvis does not rock back,
+//! and that the figure does not hop.
+//!
+//! Fast walks cannot be stopped in this way: the extrapolated mass centre x + v √(l/g) must not be beyond the toes
+//! (Hof, Gazendam, Sinke 2005; unverified).
 
 use super::error::OptimalWalkError;
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
-use super::movement::{End, Key, MovementProblem, posture};
+use super::movement::{End, Key, MovementProblem, Nearness, posture};
 use super::muscles::EffortCosts;
 use super::objective::{Bound, Quantity};
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::NO_ROOT_FORCE;
 use crate::dynamics::CurvedJointError;
-use crate::model::anthropometry::Human;
-use crate::model::{Movement, Side};
+use crate::model::anthropometry::{Human, SpherePart};
+use crate::model::{CoordinateId, Movement, Side};
 
 /// Dimensionless speed V/√(gL) of a walk from which figures stop: 0.7 m/s for a man of 1.75 m.
 const STOPPING_SPEED: f64 = 0.235;
 
 /// Posture of standing [deg]: knees are not locked.
 const STANDING: [(Movement, f64); 3] =
-    [(Movement::HipFlexion, 3.0), (Movement::KneeFlexion, 5.0), (Movement::AnkleDorsiflexion, 2.0)];
-/// Height of the swinging foot and the deviation that costs 1 [leg lengths].
-const CLEARANCE: [f64; 2] = [0.03, 0.005];
+    [(Movement::HipFlexion, 0.0), (Movement::KneeFlexion, 5.0), (Movement::AnkleDorsiflexion, 5.0)];
+/// Deviation of joint angles from this posture that costs 1 where a stop ends [rad]: the feet are side by side.
+const SIDE_BY_SIDE: f64 = 0.01;
+/// Smallest height of a swinging sole, how much higher than in the walk it comes, and the deviation that costs 1 [leg
+/// lengths].
+const HEIGHTS: [f64; 3] = [0.015, 0.02, 0.005];
+/// Share of a stop at whose end the figure rests, and how often an instant of rest counts.
+const RESTS: f64 = 0.1;
+const REST_COUNTS: f64 = 3.0;
+/// Length of the first step of a start, a share of the step of the walk.
+const FIRST_STEP_SHARES: [f64; 2] = [0.7, 0.85];
+/// How far the pelvis moves back where a start begins, and the deviation that costs 1 [leg lengths].
+const BACK: [f64; 2] = [0.02, 0.005];
 /// Knot intervals of the splines per second, for legs of 1 m.
-const KNOTS_PER_S: f64 = 40.0;
+const KNOTS_PER_S: f64 = 30.0;
 /// Acceleration of the pelvis that costs 1 [g].
 const PELVIS: f64 = 0.2;
 /// Share of the body weight that the ground carries at least, unless the figure hops; below and above the other shares,
@@ -43,20 +61,57 @@ const LOAD_COST: f64 = 0.05;
 /// Largest difference from the walk where a movement joins it: coordinates [rad, m] and rates [rad/s, m/s].
 const APART: [f64; 2] = [0.02, 0.3];
 
-/// How a movement and its first guess follow the walk.
+/// How a movement follows the walk. Phases are shares of its cycle, in which the right foot strikes at 0 and the left
+/// one at 0.5.
 struct Outline {
-    /// Duration as a share of the cycle of the walk.
-    duration: f64,
-    /// Share of the cycle at which it leaves or joins the walk.
-    joins: f64,
-    /// Shares of the movement between which the left foot is lifted.
-    swing: [f64; 2],
-    /// Share of the movement at which the first guess begins to move.
-    rests: f64,
+    /// Phase at which the movement begins, and at which it ends, as long as it lasts in the walk.
+    phases: [f64; 2],
+    /// The end at which it is the walk: 0 for a stop, 1 for a start.
+    walks: usize,
+    /// Phases between which the first guess changes between the walk and standing.
+    changes: [f64; 2],
+    /// Phases between which a foot is lifted.
+    swings: &'static [(Side, [f64; 2])],
+    /// Phases at which the first guess begins to stand on a foot.
+    stances: &'static [(Side, f64)],
 }
 
-const STOP: Outline = Outline { duration: 0.65, joins: 0.15, swing: [0.2, 0.5], rests: 0.0 };
-const START: Outline = Outline { duration: 0.9, joins: 0.42, swing: [0.68, 0.9], rests: 0.3 };
+const STOP: Outline = Outline {
+    phases: [0.15, 1.4],
+    walks: 0,
+    changes: [0.15, 1.0],
+    swings: &[(Side::Left, [0.22, 0.44]), (Side::Right, [0.7, 0.9])],
+    stances: &[(Side::Right, 0.15), (Side::Left, 0.5)],
+};
+const START: Outline = Outline {
+    phases: [-1.33, 0.42],
+    walks: 1,
+    changes: [-1.05, -0.25],
+    swings: &[(Side::Left, [-0.82, -0.56]), (Side::Right, [-0.32, -0.06]), (Side::Left, [0.18, 0.42])],
+    stances: &[(Side::Right, -1.33), (Side::Left, -0.5), (Side::Right, 0.0)],
+};
+/// Phases in which the first step of a start has ended and its foot stands.
+const FIRST_STEP: [f64; 2] = [-0.48, -0.3];
+
+impl Outline {
+    /// The phase at which the movement is the walk.
+    const fn joins(&self) -> f64 {
+        self.phases[self.walks]
+    }
+
+    /// Share of standing in the first guess at a phase.
+    fn standing(&self, phase: f64) -> f64 {
+        let [from, to] = self.changes;
+        let share = ((phase - from) / (to - from)).clamp(0.0, 1.0);
+        let smooth = share.powi(3) * (10.0 - share * (15.0 - 6.0 * share));
+        if self.walks == 0 { smooth } else { 1.0 - smooth }
+    }
+
+    fn stance(&self, phase: f64) -> Side {
+        let begun = self.stances.iter().rev().find(|(_, from)| *from <= phase);
+        begun.or(self.stances.first()).map_or(Side::Right, |(side, _)| *side)
+    }
+}
 
 /// A stop and a start.
 #[derive(Debug, Clone)]
@@ -69,7 +124,7 @@ pub struct StandingMovements {
 
 impl StandingMovements {
     /// Shares of the cycle of the walk at which the stop begins and at which the start ends.
-    pub const JOINS: [f64; 2] = [STOP.joins, START.joins];
+    pub const JOINS: [f64; 2] = [STOP.joins(), START.joins()];
 
     /// A speed at which a figure can stop and walk off [m/s].
     #[must_use]
@@ -94,11 +149,11 @@ impl StandingMovements {
                 None => Ok(solution),
             }
         };
-        let stop = checked("stop", joining(human, walk, None)?.solve()?)?;
+        let stop = checked("stop", joining(human, walk, None)?.solve_near_guess()?)?;
         let empty = || vec![0.0; human.model.coordinates().len()];
         let mut standing = [empty(), empty(), empty()];
         stop.write(stop.problem().duration_s, &mut standing);
-        let start = checked("start", joining(human, walk, Some(&standing[0]))?.solve()?)?;
+        let start = checked("start", joining(human, walk, Some(&standing[0]))?.solve_near_guess()?)?;
         Ok(StandingMovements { stop, start })
     }
 
@@ -115,7 +170,7 @@ impl StandingMovements {
 /// Whether a movement differs from the walk at the instant of their join.
 fn misses(solution: &Solution, walk: &Solution, is_start: bool) -> bool {
     let (outline, at_s) = if is_start { (START, solution.problem().duration_s) } else { (STOP, 0.0) };
-    let [own, joined] = [solution.instant(at_s), walk.instant(outline.joins * walk.cycle_s())];
+    let [own, joined] = [solution.instant(at_s), walk.instant(outline.joins() * walk.cycle_s())];
     let forward = solution.problem().model.anatomy().coordinate(Movement::PelvisForward, None);
     let differ = |part: usize| {
         let pairs = own.posture[part].iter().zip(&joined.posture[part]).enumerate();
@@ -133,10 +188,10 @@ fn hops(solution: &Solution) -> bool {
 
 /// The problem of a stop; with the posture of standing, of a start from it.
 fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<MovementProblem, CurvedJointError> {
-    let is_start = standing.is_some();
-    let outline = if is_start { START } else { STOP };
+    let outline = if standing.is_some() { &START } else { &STOP };
     let (like, cycle_s) = (walk.problem(), walk.cycle_s());
-    let (duration_s, join_s) = (outline.duration * cycle_s, outline.joins * cycle_s);
+    let [begins, ends] = outline.phases;
+    let duration_s = (ends - begins) * cycle_s;
     let knots_per_s = KNOTS_PER_S / like.length_m.sqrt();
     let problem = Problem {
         span: Span::Single,
@@ -148,72 +203,132 @@ fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<M
         ..like.clone()
     };
     let rest = standing.map_or_else(|| posture(&like.model, &Key::new(0.0, &STANDING)), <[f64]>::to_vec);
-    let mixed = |share: &f64| {
-        // 0 in the walk, 1 in standing.
-        let away = if is_start { ((1.0 - share) / (1.0 - outline.rests)).min(1.0) } else { *share };
-        let slowed = duration_s * (away - 0.5 * away * away);
-        let walked = walk.instant(if is_start { join_s - slowed } else { join_s + slowed }).posture;
-        let w = away.powi(3) * (10.0 - away * (15.0 - 6.0 * away));
-        walked[0].iter().zip(&rest).map(|(walked, rest)| (1.0 - w) * walked + w * rest).collect::<Vec<f64>>()
-    };
-    let postures: Vec<Vec<f64>> = problem.shares().iter().map(mixed).collect();
-    let guess = on_right_foot(&problem, postures)?;
+    let guess = first_guess(&problem, walk, outline, &rest)?;
     let costs = EffortCosts { pelvis: PELVIS, ..EffortCosts::default() };
     let last = problem.instants() - 1;
-    let [in_walk, at_rest] = if is_start { [last, 0] } else { [0, last] };
+    let [in_walk, at_rest] = if outline.walks == 0 { [0, last] } else { [last, 0] };
     // The walk determines the height of the pelvis, but not the distance travelled.
-    let [mut walked, rates, _] = walk.instant(join_s).posture;
-    if let Some((forward, _)) = like.model.anatomy().coordinate(Movement::PelvisForward, None) {
+    let [mut walked, rates, _] = walk.instant(outline.joins() * cycle_s).posture;
+    let forward = like.model.anatomy().coordinate(Movement::PelvisForward, None);
+    if let Some((forward, _)) = forward {
         walked[forward.index()] = guess[in_walk][forward.index()];
     }
     let still = vec![0.0; rates.len()];
+    let nearness = if standing.is_some() { Nearness::All } else { Nearness::Joints(SIDE_BY_SIDE) };
+    let rested = ((RESTS * last as f64) as usize).max(1);
+    let resting = if standing.is_some() { at_rest..at_rest + 1 } else { at_rest + 1 - rested..at_rest + 1 };
     let ends = [
-        End { instant: in_walk, place: &walked, rates: &rates, is_exact: true },
-        End { instant: at_rest, place: &guess[at_rest], rates: &still, is_exact: is_start },
+        End { instants: in_walk..in_walk + 1, place: &walked, rates: &rates, nearness: Nearness::All, count: 1.0 },
+        End { count: REST_COUNTS, instants: resting, place: &guess[at_rest], rates: &still, nearness },
     ];
+    let heels = heels(&problem, &guess[at_rest])?;
+    let at_rest_m = forward.map(|(forward, sign)| (forward, sign, sign * guess[at_rest][forward.index()]));
     let mut movement = MovementProblem::of_guess(human, &costs, problem, &guess, &ends, |muscles| {
         muscles.joints();
         muscles.trunk();
         muscles.moment_rates();
     })?;
-    let [height, lower] = CLEARANCE.map(|share| share * like.length_m);
-    for sphere in (0..like.soles.len()).filter(|sphere| like.soles[*sphere].side == Side::Left) {
-        let span = outline.swing.map(|share| share * duration_s);
-        movement.require(span, Quantity::Height(sphere), Bound::AtLeast, height, lower);
+    require(&mut movement, walk, outline, at_rest_m, &heels);
+    Ok(movement)
+}
+
+/// Requires what people do: feet that swing clear of the ground and not higher than needed, a pelvis that does not rock
+/// back, and a load on the ground near the body's weight.
+fn require(
+    movement: &mut MovementProblem,
+    walk: &Solution,
+    outline: &Outline,
+    at_rest_m: Option<(CoordinateId, f64, f64)>,
+    heels: &[(usize, Side, f64)],
+) {
+    let (like, cycle_s, duration_s) = (walk.problem(), walk.cycle_s(), movement.problem.duration_s);
+    let all = [0.0, duration_s];
+    let [least, most, deviation] = HEIGHTS.map(|share| share * like.length_m);
+    let highest =
+        (0..like.soles.len()).map(Quantity::Height).flat_map(|height| walk.values(&height).collect::<Vec<_>>());
+    let highest = highest.fold(0.0, f64::max) + most;
+    for (sphere, sole) in like.soles.iter().enumerate() {
+        for (_, span) in outline.swings.iter().filter(|(side, _)| *side == sole.side) {
+            let span = span.map(|phase| (phase - outline.phases[0]) * cycle_s);
+            movement.require(span, Quantity::Height(sphere), Bound::AtLeast, least, deviation);
+        }
+        movement.require(all, Quantity::Height(sphere), Bound::AtMost, highest, deviation);
+    }
+    if let Some((forward, sign, place)) = at_rest_m.filter(|_| outline.walks == 1) {
+        let [back, deviation] = BACK.map(|share| share * like.length_m);
+        movement.require(all, Quantity::Position(vec![(forward, sign)]), Bound::AtLeast, place - back, deviation);
+    }
+    for (sphere, _, place) in heels.iter().filter(|(_, side, _)| outline.walks == 1 && *side == Side::Left) {
+        let span = FIRST_STEP.map(|phase| (phase - outline.phases[0]) * cycle_s);
+        let step_m = 0.5 * walk.speed() * cycle_s;
+        for (bound, share) in [Bound::AtLeast, Bound::AtMost].into_iter().zip(FIRST_STEP_SHARES) {
+            movement.require(span, Quantity::Place(*sphere, 0), bound, place + share * step_m, deviation);
+        }
     }
     let spheres: Vec<usize> = (0..like.soles.len()).collect();
     for (bound, share) in [Bound::AtLeast, Bound::AtMost].into_iter().zip(LOADS) {
         let load = Quantity::GroundForce(spheres.clone(), 1);
-        movement.require([0.0, duration_s], load, bound, share * like.weight_n(), LOAD_COST * like.weight_n());
+        movement.require(all, load, bound, share * like.weight_n(), LOAD_COST * like.weight_n());
     }
-    Ok(movement)
 }
 
-/// Moves the pelvis in all postures so that the right foot stays where it is in the first one, with the lowest sole as
-/// high as there.
-fn on_right_foot(problem: &Problem, postures: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, CurvedJointError> {
+/// Number, side and place forward [m] of the spheres under the heels in a posture.
+fn heels(problem: &Problem, posture: &[f64]) -> Result<Vec<(usize, Side, f64)>, CurvedJointError> {
+    let still = vec![0.0; posture.len()];
+    let mut at = [Instant { posture: [posture.to_vec(), still.clone(), still], ..Instant::default() }];
+    Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?.evaluate_forces(&problem.shoes, &mut at);
+    let of_heels = problem.soles.iter().enumerate().filter(|(_, sole)| sole.part == SpherePart::Heel);
+    Ok(of_heels.map(|(k, sole)| (k, sole.side, at[0].contacts[k].values.place_x)).collect())
+}
+
+/// Coordinates at all instants: the walk mixed with standing, with the stance foot where it came to stand and the
+/// lowest sole as high as in the first one.
+fn first_guess(
+    problem: &Problem,
+    walk: &Solution,
+    outline: &Outline,
+    rest: &[f64],
+) -> Result<Vec<Vec<f64>>, CurvedJointError> {
+    let [begins, ends] = outline.phases;
+    let phases: Vec<f64> = problem.shares().iter().map(|share| begins + share * (ends - begins)).collect();
+    let mixed = |phase: &f64| {
+        let standing = outline.standing(*phase);
+        let walked = walk.instant(phase * walk.cycle_s()).posture;
+        let mix = |(walked, rest): (&f64, &f64)| (1.0 - standing) * walked + standing * rest;
+        walked[0].iter().zip(rest).map(mix).collect::<Vec<f64>>()
+    };
     let anatomy = problem.model.anatomy();
     let still = vec![0.0; problem.model.coordinates().len()];
     let at_rest = |q| Instant { posture: [q, still.clone(), still.clone()], ..Instant::default() };
-    let mut instants: Vec<Instant> = postures.into_iter().map(at_rest).collect();
+    let mut instants: Vec<Instant> = phases.iter().map(mixed).map(at_rest).collect();
     Evaluator::new(&problem.model, &problem.soles, &problem.levels_m)?.evaluate_forces(&problem.shoes, &mut instants);
-    let of_foot = |at: &Instant| {
-        let right = problem.soles.iter().zip(&at.contacts).filter(|(sole, _)| sole.side == Side::Right);
-        let count = right.clone().count().max(1) as f64;
-        let middle = right.fold([0.0; 2], |[x, z], (_, contact)| [x + contact.place.x, z + contact.place.z]);
+    let of_foot = |at: &Instant, side: Side| {
+        let of_side = problem.soles.iter().zip(&at.contacts).filter(|(sole, _)| sole.side == side);
+        let count = of_side.clone().count().max(1) as f64;
+        let middle = of_side.fold([0.0; 2], |[x, z], (_, contact)| [x + contact.place.x, z + contact.place.z]);
         let lowest = at.contacts.iter().map(|contact| contact.values.height).fold(f64::INFINITY, f64::min);
         [middle[0] / count, lowest, middle[1] / count]
     };
-    let first = instants.first().map_or([0.0; 3], of_foot);
-    let moved = [Movement::PelvisForward, Movement::PelvisUp, Movement::PelvisRight];
-    let placed = |at: &Instant| {
+    let mut side = outline.stance(begins);
+    let mut stands = instants.first().map_or([0.0; 3], |first| of_foot(first, side));
+    let mut moved = [0.0; 3];
+    let movements = [Movement::PelvisForward, Movement::PelvisUp, Movement::PelvisRight];
+    let mut guess = Vec::new();
+    for (at, &phase) in instants.iter().zip(&phases) {
+        if outline.stance(phase) != side {
+            side = outline.stance(phase);
+            let [x, _, z] = of_foot(at, side);
+            stands = [x + moved[0], stands[1], z + moved[2]];
+        }
+        let now = of_foot(at, side);
+        moved = [0, 1, 2].map(|axis| stands[axis] - now[axis]);
         let mut posture = at.posture[0].clone();
-        for ((movement, first), now) in moved.iter().zip(first).zip(of_foot(at)) {
+        for (movement, moved) in movements.iter().zip(moved) {
             if let Some((id, sign)) = anatomy.coordinate(*movement, None) {
-                posture[id.index()] += sign * (first - now);
+                posture[id.index()] += sign * moved;
             }
         }
-        posture
-    };
-    Ok(instants.iter().map(placed).collect())
+        guess.push(posture);
+    }
+    Ok(guess)
 }

@@ -122,8 +122,8 @@ pub(super) const KEYS: &[&str] =
     &["name", "build", "walk", "arms", "shoes", "coordinate", "control", "at", "rotation", "sphere"];
 /// Largest additional lift of soles [m].
 const MOST_LIFT_M: f64 = 0.1;
-/// Largest delay of feedback [s]: with a longer one the figure has already fallen.
-const MOST_DELAY_S: f64 = 0.2;
+/// Largest delay and largest time constant of feedback [s]: with longer ones the figure has already fallen.
+const MOST_LATE_S: f64 = 0.2;
 /// Why a figure in three dimensions needs a controller.
 const CONTROLLED: &str = "a controller, as in `control = {}`: a figure in three dimensions walks by its own torques";
 /// Largest abduction of an arm [rad].
@@ -171,20 +171,20 @@ fn build(value: &Value<'_>) -> Result<(Build, Human), SceneError> {
     Ok((build, human))
 }
 
-/// Delay of feedback [s].
-fn delay(table: &Table<'_>) -> Result<f64, SceneError> {
-    let Some(value) = table.get("delay") else { return Ok(0.0) };
-    let delay_s = value.zero_or_more()?;
-    if delay_s <= MOST_DELAY_S { Ok(delay_s) } else { Err(value.wrong("a delay of at most 0.2 s")) }
+/// Delay or time constant of feedback [s].
+fn lateness(table: &Table<'_>, key: &str) -> Result<f64, SceneError> {
+    let Some(value) = table.get(key) else { return Ok(0.0) };
+    let time_s = value.zero_or_more()?;
+    if time_s <= MOST_LATE_S { Ok(time_s) } else { Err(value.wrong("a time of at most 0.2 s")) }
 }
 
 /// The gains that the other keys change.
 fn gains(table: &Table<'_>, is_spatial: bool) -> Result<ControlSettings, SceneError> {
     let Some(value) = table.get("gains") else { return Ok(ControlSettings::default()) };
     let is_tuned = value.choice(&[("usual", false), ("tuned", true)])?;
-    if is_tuned && (is_spatial || table.get("delay").is_some()) {
+    if is_tuned && (is_spatial || ["delay", "activation"].iter().any(|key| table.get(key).is_some())) {
         return Err(value.wrong(
-            "\"usual\" in three dimensions and with a `delay`: tuned gains are for planar figures \
+            "\"usual\" in three dimensions and with a `delay` or an `activation`: tuned gains are for planar figures \
             whose feedback acts at once",
         ));
     }
@@ -201,7 +201,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
         return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
     }
     let own = value.table("{ stiffness = …, damping = … }")?;
-    own.only(&[&["gains", "stiffness", "damping", "delay", "costs", "torques"]])?;
+    own.only(&[&["gains", "stiffness", "damping", "delay", "activation", "costs", "torques"]])?;
     if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
         return Err(value
             .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
@@ -213,7 +213,8 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
     let settings = ControlSettings {
         stiffness: own.above_zero_or("stiffness", default.stiffness)?,
         damping_s: own.zero_or_more_or("damping", default.damping_s)?,
-        delay_s: delay(&own)?,
+        delay_s: lateness(&own, "delay")?,
+        activation_s: lateness(&own, "activation")?,
         costs: tracking_costs::read(&own, default.costs)?,
         ..default
     };

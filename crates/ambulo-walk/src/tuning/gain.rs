@@ -173,6 +173,9 @@ impl Gain {
         if settings.delay_s > 0.0 {
             keys.push(format!("delay = {}", settings.delay_s));
         }
+        if settings.activation_s > 0.0 {
+            keys.push(format!("activation = {}", settings.activation_s));
+        }
         keys.extend(torques.map(|file| format!("torques = {file:?}")));
         if !costs.is_empty() {
             keys.push(format!("costs = {{ {} }}", costs.join(", ")));

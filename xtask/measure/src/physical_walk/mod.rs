@@ -56,8 +56,8 @@ const SEEDS: u64 = 20;
 /// Height by which the plan for tiles lifts the soles further, in the middle of swing [m].
 const LIFT: f64 = 0.027;
 
-/// Delays of feedback [s].
-const DELAYS_S: [f64; 4] = [0.01, 0.02, 0.04, 0.06];
+/// Delays of feedback and time constants of its torques [s].
+const DELAYS_S: [[f64; 2]; 6] = [[0.01, 0.0], [0.02, 0.0], [0.04, 0.0], [0.06, 0.0], [0.02, 0.02], [0.04, 0.04]];
 
 /// A figure with its plan.
 struct Figure {
@@ -109,7 +109,7 @@ struct Results {
     harmonics: Vec<OfHarmonics>,
     tuned: Tuned,
     /// Delay of feedback [s], the walk, and pushes as above.
-    delays: Vec<(f64, Walked, usize)>,
+    delays: Vec<([f64; 2], Walked, usize)>,
     placement: placement::Results,
     stands: Vec<standing::Stands>,
     /// The same man in three dimensions.
@@ -234,17 +234,17 @@ fn with_tuned_gains(man: &Figure, paces: &[(Figure, WalkController)]) -> Result<
             .map(|slope| Ok((slope, inclined(man, &own, slope, 100)?)))
             .collect::<Result<_, String>>()?,
         at_speeds,
-        delays: DELAYS_S[..3].iter().copied().map(late).collect::<Result<_, String>>()?,
+        delays: DELAYS_S[..3].iter().map(|[delay_s, _]| late(*delay_s)).collect::<Result<_, String>>()?,
         sideways: [aside(60.0)?, aside(-60.0)?],
     })
 }
 
 /// Walks and pushes with feedback that acts late.
-fn with_delays(man: &Figure, settings: &ControlSettings) -> Result<Vec<(f64, Walked, usize)>, String> {
-    let of = |delay_s: f64| {
-        let own = controller(man, &ControlSettings { delay_s, ..settings.clone() })?;
+fn with_delays(man: &Figure, settings: &ControlSettings) -> Result<Vec<([f64; 2], Walked, usize)>, String> {
+    let of = |[delay_s, activation_s]: [f64; 2]| {
+        let own = controller(man, &ControlSettings { delay_s, activation_s, ..settings.clone() })?;
         let survived = pushed_both_ways(man, &own)?;
-        Ok((delay_s, walked(with_controller(man, &own)?, man, 100)?, survived))
+        Ok(([delay_s, activation_s], walked(with_controller(man, &own)?, man, 100)?, survived))
     };
     DELAYS_S.into_iter().map(of).collect()
 }

@@ -138,10 +138,11 @@ fn tuned(tuned: &Tuned) -> String {
 }
 
 fn delays(results: &Results) -> String {
-    let mut table = Table::new(&["delay [ms]", "steps of 100", "RMS [deg]", "pushes of 100 N"]);
-    for (delay_s, walked, survived) in &results.delays {
+    let mut table = Table::new(&["delay [ms]", "time constant [ms]", "steps of 100", "RMS [deg]", "pushes of 100 N"]);
+    for ([delay_s, activation_s], walked, survived) in &results.delays {
         table.row([
             format!("{:.0}", 1e3 * delay_s),
+            format!("{:.0}", 1e3 * activation_s),
             steps(walked),
             format!("{:.2}", walked.apart.to_degrees()),
             format!("{survived} of {}", 2 * PHASES),
@@ -149,8 +150,9 @@ fn delays(results: &Results) -> String {
     }
     format!(
         "## Feedback that acts later\n\nThe same man in the plane; feedback acts after a delay, for which it foresees \
-         the state by the linear system. Plan and impedance act at \
-         once. Pushes forward and backward, survived for {AFTER_PUSH} steps.\n\n{}\n",
+         the state by the linear system and the feedback that is on its way, and its torques follow their command with \
+         a time constant, as muscle forces follow activation. Plan and impedance act at once. Pushes forward and \
+         backward, survived for {AFTER_PUSH} steps.\n\n{}\n",
         table.text()
     )
 }
