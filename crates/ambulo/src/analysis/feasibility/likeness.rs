@@ -6,7 +6,7 @@
 //!   b = farthest place of the pelvis so far - its place, along the way from its first to its last place
 //!
 //! Limits are 1.5 times the largest values of people: in 21 walks of ten adults at their own and at a fast speed, h was
-//! at most 0.085 m and ω 352, 474 and 400 deg/s. The pelvis of a person who walks does not move back; who starts to
+//! at most 0.085 m and ω 353, 474 and 399 deg/s. The pelvis of a person who walks does not move back; who starts to
 //! walk moves it back by centimetres. Heights and ways are shares of leg length L, speeds are multiples of √(g/L), for
 //! legs of 0.9 m. A person may do more on purpose, so this is no reason to call a motion infeasible; recordings of
 //! people are not judged. Frames after a fall are left out.
