@@ -16,11 +16,12 @@
 
 use super::riccati::StepMap;
 use super::settings::ControlSettings;
+use crate::numerics::elementary::exp;
 use nalgebra::DMatrix;
 
 /// The share a of a torque that is left after a time step; none where torques act at once.
 pub(super) fn left_over(settings: &ControlSettings, step_s: f64) -> Option<f64> {
-    (settings.activation_s > 0.0).then(|| (-step_s / settings.activation_s).exp())
+    (settings.activation_s > 0.0).then(|| exp(-step_s / settings.activation_s))
 }
 
 /// The maps of the state with the torques of the joints, of which the share `left` is left after a time step.
