@@ -152,42 +152,6 @@ fn nameless_markers_get_segment_and_place_and_the_floor_gets_none() {
 }
 
 #[test]
-fn a_pause_in_the_middle_of_a_recording_hides_no_marker_of_a_shown_body() {
-    let human = person();
-    let named = MarkerSet::named("plug-in-gait").unwrap().on(&human);
-    let further = nameless(&human);
-    // A walk of 0.6 s, four seconds without a movement, and as many of steps that are too small to tell segments apart.
-    let walk = (0..FRAMES).map(|frame| walking(&human, frame));
-    let pause = std::iter::repeat_n(walking(&human, FRAMES), 400);
-    let rest: Vec<f64> = human.model.coordinates().iter().map(|c| c.default_value).collect();
-    let small = |frame| rest.iter().zip(walking(&human, frame)).map(|(rest, q)| rest + 0.02 * (q - rest)).collect();
-    let postures: Vec<Vec<f64>> = walk.chain(pause).chain((0..400).map(small)).collect();
-    let all: Vec<Marker> = named.iter().chain(&further).cloned().collect();
-    let mut moving = recorded(&human, &all, &postures);
-    let found = |moving: &MarkerRecording| -> BTreeMap<String, Marker> {
-        let model = human.model.with_markers(named.clone()).unwrap();
-        let body = MarkedBody { model: &model, weights: &BTreeMap::new(), is_shown: true };
-        let found = technical_markers(body, moving, None, &named_in(moving));
-        found.into_iter().map(|(marker, _)| (marker.name.clone(), marker)).collect()
-    };
-    let (floor, on_body) = further.split_last().unwrap();
-    let right = |found: &BTreeMap<String, Marker>| {
-        let near = |marker: &&Marker| {
-            let own = found.get(&marker.name);
-            own.is_some_and(|own| own.body == marker.body && (own.location - marker.location).norm() < 0.005)
-        };
-        on_body.iter().filter(near).count()
-    };
-    let with_all = found(&moving);
-    assert!(!with_all.contains_key(&floor.name), "{with_all:?}");
-    assert_eq!(right(&with_all), on_body.len(), "{with_all:?}");
-    // A marker that is lost where the markers move most.
-    let lost = moving.markers.iter_mut().find(|path| path.name == "m03").unwrap();
-    lost.positions[..FRAMES + 200].fill(Vec3::from_element(f64::NAN));
-    assert!(found(&moving).contains_key("m03"));
-}
-
-#[test]
 fn a_name_decides_unless_the_motion_contradicts_it() {
     let made = made();
     let named = |name: &str, like: &str| {

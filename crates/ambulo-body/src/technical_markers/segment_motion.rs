@@ -4,7 +4,6 @@ use crate::kinematics::marker_fit::{FitSettings, JointLimits, OutlierDetection, 
 use crate::kinematics::{Posture, body_motion};
 use crate::model::{BodyId, Drive, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::{median, sample_deviation};
 use crate::spatial::{Pose, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,16 +11,12 @@ use std::ops::Range;
 /// Frames of a run are at most this far apart [s]: then each begins near its posture, and takes a third of the time.
 const APART_S: f64 = 0.04;
 
-/// Markers move little where their distances change by less than this share of what they do elsewhere.
-const LITTLE: f64 = 0.3;
-
 /// Which frames of a recording a body follows; each as many at most.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Chosen {
     /// Spread over the recording.
     Spread(usize),
-    /// From its middle, or from where the markers move most if they move little there, without larger steps than the
-    /// body follows easily; spread if a marker is not seen there.
+    /// From its middle, without larger steps than the body follows easily.
     Run(usize),
 }
 
@@ -89,42 +84,13 @@ pub(super) fn sample(recording: &MarkerRecording, frames: usize) -> MarkerRecord
     every(recording, 0..recording.frames(), recording.frames().div_ceil(frames).max(1))
 }
 
-/// Frames in a row, from the middle or, if the markers move little there, where they move most against one another; or
-/// spread ones where these hide a marker.
+/// Frames from the middle of a recording.
 fn run(recording: &MarkerRecording, frames: usize) -> MarkerRecording {
     let all = recording.frames();
     let step = ((APART_S * recording.rate_hz) as usize).clamp(1, all.div_ceil(frames).max(1));
     let long = (frames * step).min(all);
-    let from = |first: usize| {
-        let run = every(recording, first..first + long, step);
-        (movement_m(&run), run)
-    };
-    let middle = from((all - long) / 2);
-    let elsewhere = (0..=all - long).step_by((long / 2).max(1)).chain([all - long]).map(from);
-    let most = elsewhere.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|most| LITTLE * most.0 > middle.0);
-    let (_, run) = most.unwrap_or(middle);
-    let spread = sample(recording, frames);
-    if shows_as_much(&run, &spread) { run } else { spread }
-}
-
-/// How much the distances between the markers change [m]: the median of their standard deviations, because a marker
-/// that jumps says nothing about the body.
-fn movement_m(run: &MarkerRecording) -> f64 {
-    let deviation = |(a, b): (&MarkerPath, &MarkerPath)| {
-        let both = (0..run.frames()).filter(|&frame| a.is_seen(frame) && b.is_seen(frame));
-        let distances: Vec<f64> = both.map(|frame| (a.positions[frame] - b.positions[frame]).norm()).collect();
-        sample_deviation(&distances)
-    };
-    let pairs = run.markers.iter().enumerate().flat_map(|(i, a)| run.markers[..i].iter().map(move |b| (a, b)));
-    median(pairs.filter_map(deviation)).unwrap_or(0.0)
-}
-
-/// Whether some frames show every marker that others show, each in enough frames to place it.
-fn shows_as_much(run: &MarkerRecording, other: &MarkerRecording) -> bool {
-    let is_shown = |path: &MarkerPath| {
-        (0..path.positions.len()).filter(|frame| path.is_seen(*frame)).count() >= super::LEAST_FRAMES
-    };
-    run.markers.iter().zip(&other.markers).all(|(own, other)| is_shown(own) || !is_shown(other))
+    let first = (all - long) / 2;
+    every(recording, first..first + long, step)
 }
 
 fn every(recording: &MarkerRecording, frames: Range<usize>, step: usize) -> MarkerRecording {
