@@ -286,7 +286,8 @@ fn parts(message: &str, of_command: Option<&str>) -> (String, Option<String>) {
 /// is not judged.
 fn print_verdict(verdict: &Verdict, print: PrintArgs) -> Result<()> {
     if verdict.state == VerdictState::NotJudged {
-        return print_line(&format!("  verdict   not judged: {}", verdict.undecided.join("; ")));
+        print_line(&format!("  verdict   not judged: {}", verdict.undecided.join("; ")))?;
+        return print_likeness(verdict);
     }
     if verdict.state == VerdictState::Feasible {
         let nearest = verdict.closest.iter().max_by(|a, b| a.share.total_cmp(&b.share));

@@ -37,8 +37,8 @@ const WALKS: f64 = 0.5;
 /// A pelvis lower than this share of its first height has fallen.
 const FALLEN: f64 = 0.7;
 
-/// What a walk was compared in, each where it comes nearest to its limit: swing, pelvis, hips, knees, ankles; none for
-/// a body without pelvis, legs and soles.
+/// Compares a walk with those of people: height of the swing, way of the pelvis back, speed of hips, knees and ankles,
+/// each at the instant at which it is nearest to its limit. Empty for a body without pelvis, legs and soles.
 #[must_use]
 pub fn likeness(model: &Model, trajectory: &Trajectory, person: &Person) -> Vec<Likeness> {
     let Some((pelvis, soles)) = places(model, trajectory, person) else { return Vec::new() };
@@ -85,8 +85,7 @@ impl Compared<'_> {
         let at_s = self.trajectory.grid().time(frame);
         let message = format!(
             "the whole {side} foot is {value:.2} m above the other one at {at_s:.2} s; {limit:.2} m is more than \
-             people need \
-             on level ground"
+             people need on level ground"
         );
         Some(Likeness::new(
             LikenessMeasure::SwingHeight,

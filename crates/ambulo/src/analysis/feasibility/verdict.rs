@@ -173,7 +173,7 @@ pub struct FitOfForces {
 }
 
 impl Verdict {
-    /// What no person would do in a walk, the worst first.
+    /// Measures beyond what people do in a walk, the farthest one first.
     #[must_use]
     pub fn unlike_people(&self) -> Vec<&Likeness> {
         let mut list: Vec<&Likeness> = self.likeness.iter().filter(|likeness| likeness.share > 1.0).collect();
@@ -281,7 +281,7 @@ pub struct Likeness {
     pub at_s: f64,
     /// The value at that instant.
     pub value: f64,
-    /// 1.5 times the largest value of people.
+    /// The limit: 1.5 times the largest value of people, or a tenth of the leg length for the way of the pelvis back.
     pub limit: f64,
     /// Unit of both.
     pub unit: Cow<'static, str>,
