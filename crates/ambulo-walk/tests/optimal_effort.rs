@@ -5,7 +5,7 @@ use ambulo_walk::internals::{Evaluator, Instant, Row, tissue_of};
 use ambulo_walk::model::anthropometry::{Build, SegmentTable};
 use ambulo_walk::model::full_body::full_body;
 use ambulo_walk::model::{Movement, Side};
-use ambulo_walk::optimal::{Effort, Quantity};
+use ambulo_walk::optimal::{ECCENTRIC, Effort, Quantity, StrengthCurve};
 
 #[test]
 fn slopes_of_all_quantities_of_muscles_and_feet_are_those_of_differences() {
@@ -15,8 +15,11 @@ fn slopes_of_all_quantities_of_muscles_and_feet_are_those_of_differences() {
     let (knee, _) = anatomy.coordinate(Movement::KneeFlexion, Some(Side::Left)).unwrap();
     let (tissue, constant) = tissue_of(anatomy, Movement::KneeFlexion, Side::Left).unwrap();
     let effort = Effort { coordinate: knee, tissue, stiffness: 30.0, damping: 3.0, given: vec![constant, 7.0] };
+    let strength = StrengthCurve::built_in(Movement::KneeFlexion, 75.0, 1.75).unwrap();
     let quantities = [
         Quantity::Effort(effort.clone()),
+        Quantity::Activation { effort: effort.clone(), strength: strength.clone(), sign: 1.0 },
+        Quantity::Activation { effort: Effort::whole(knee), strength, sign: -1.0 },
         Quantity::RootPower { effort: effort.clone(), prices: [4.0, 0.8], smooth_w: 5.0 },
         Quantity::RootPower { effort: Effort::whole(knee), prices: [4.0, 0.8], smooth_w: 50.0 },
         Quantity::Place(3, 2),
@@ -55,6 +58,34 @@ fn slopes_of_all_quantities_of_muscles_and_feet_are_those_of_differences() {
             }
         }
     }
+}
+
+/// An activation is the moment over what muscles can do at this angle and speed, as the verdict has it, and stays
+/// finite where nothing is left.
+#[test]
+fn an_activation_is_the_share_of_the_strength_at_the_angle_and_the_speed() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let human = full_body(&build).unwrap();
+    let (ankle, _) = human.model.anatomy().coordinate(Movement::AnkleDorsiflexion, Some(Side::Right)).unwrap();
+    let strength = StrengthCurve::built_in(Movement::AnkleDorsiflexion, 75.0, 1.75).unwrap();
+    let zeros = || vec![0.0; human.model.coordinates().len()];
+    let mut at = Instant { posture: [(); 3].map(|()| zeros()), forces: zeros(), ..Instant::default() };
+    for (sign, moment, angle_deg, rate) in
+        [(-1.0, -100.0, 10.0, 0.0), (-1.0, -80.0, -5.0, -3.0), (-1.0, -120.0, 8.0, 2.0), (1.0, 20.0, 0.0, 0.5)]
+    {
+        at.posture[0][ankle.index()] = f64::to_radians(angle_deg);
+        at.posture[1][ankle.index()] = rate;
+        at.forces[ankle.index()] = moment;
+        let share = |sign: f64| {
+            Quantity::Activation { effort: Effort::whole(ankle), strength: strength.clone(), sign }.value(0, &at)
+        };
+        let expected = moment.abs() / strength.available(f64::to_radians(angle_deg), rate, sign, ECCENTRIC);
+        assert!((share(sign) / expected - 1.0).abs() < 0.06, "{} and {expected}", share(sign));
+        assert!(share(sign) > 0.0 && share(-sign) < 0.0);
+    }
+    at.posture[1][ankle.index()] = 60.0;
+    let fast = Quantity::Activation { effort: Effort::whole(ankle), strength, sign: 1.0 }.value(0, &at);
+    assert!(fast.is_finite() && fast > 1.0, "{fast}");
 }
 
 /// Riener and Edrich's passive knee: little moment at 20 degrees of flexion, more towards both ends.

@@ -10,7 +10,8 @@ use super::error::Overload;
 use super::objective::{Bound, Quantity, Term};
 use super::problem::Problem;
 use super::solution::Solution;
-use crate::model::anthropometry::Human;
+use super::strength::StrengthCurve;
+use crate::model::anthropometry::{Build, Human};
 use crate::model::{CoordinateId, Movement, Side};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
@@ -70,23 +71,6 @@ const ADULT: f64 = 75.0 * 9.80665 * 1.75;
 /// Mechanical power below which muscles cost more than their work [W/kg]: smooths the cost where the power changes its
 /// sign.
 const SMOOTH: f64 = 0.067;
-/// Isometric strength of muscles, positive and negative moments of the movement, as shares of body weight times
-/// stature. Hip, knee and ankle: the largest moments of Gait2392 near the postures of walking (strength.csv); the
-/// others are our estimates.
-pub(super) fn strength_of(movement: Option<Movement>) -> [f64; 2] {
-    match movement {
-        Some(Movement::HipFlexion) => [0.157, 0.274],
-        Some(Movement::KneeFlexion) => [0.122, 0.210],
-        Some(Movement::AnkleDorsiflexion) => [0.0443, 0.186],
-        Some(Movement::HipAdduction) => [0.192, 0.163],
-        Some(Movement::HipRotation) => [0.058; 2],
-        Some(Movement::SubtalarInversion) => [0.035; 2],
-        Some(Movement::ToeExtension) => [0.0175; 2],
-        Some(Movement::TrunkLean | Movement::TrunkObliquity | Movement::TrunkRotation) => [0.175; 2],
-        _ => [0.047; 2],
-    }
-}
-
 /// Adds the costs of muscles to the terms of a problem.
 pub(super) struct MuscleTerms<'a> {
     pub(super) human: &'a Human,
@@ -135,8 +119,8 @@ impl<'a> MuscleTerms<'a> {
             let meaning = model.anatomy().meaning(id);
             let movement = meaning.map(|meaning| meaning.movement);
             let name = model.coordinates()[id.index()].name.clone();
-            let effort = self.effort(id, &name, movement);
-            self.muscles(&name, &effort, movement, meaning.map_or(1.0, |m| m.sign));
+            let efforts = [true, false].map(|is_less_tissue| self.effort(id, &name, movement, is_less_tissue));
+            self.muscles(&name, &efforts, movement, meaning.map_or(1.0, |m| m.sign));
             let acceleration = self.costs.acceleration * self.turning;
             self.add(&name, Quantity::Acceleration(vec![(id, 1.0)]), 0.0, acceleration, Bound::Near);
             let posture = match movement {
@@ -157,8 +141,8 @@ impl<'a> MuscleTerms<'a> {
         }
     }
 
-    /// Muscle moment of a joint without tissue and devices.
-    fn effort(&self, id: CoordinateId, name: &str, movement: Option<Movement>) -> Effort {
+    /// Muscle moment of a joint without devices, and without the passive moment of tissue or with it.
+    fn effort(&self, id: CoordinateId, name: &str, movement: Option<Movement>, is_less_tissue: bool) -> Effort {
         let model = &self.human.model;
         let size = self.human.build.mass * 9.80665 * self.human.build.height / ADULT;
         let mut effort = Effort::whole(id);
@@ -169,7 +153,7 @@ impl<'a> MuscleTerms<'a> {
         }
         let side = model.anatomy().meaning(id).and_then(|meaning| meaning.side);
         let mut constant = 0.0;
-        if let (Some(movement), Some(side)) = (movement, side)
+        if let (Some(movement), Some(side), true) = (movement, side, is_less_tissue)
             && let Some((mut parts, rest)) = tissue_of(model.anatomy(), movement, side)
         {
             for part in &mut parts {
@@ -192,24 +176,27 @@ impl<'a> MuscleTerms<'a> {
         effort
     }
 
-    fn muscles(&mut self, name: &str, effort: &Effort, movement: Option<Movement>, sign: f64) {
+    fn muscles(&mut self, name: &str, efforts: &[Effort; 2], movement: Option<Movement>, sign: f64) {
+        let [effort, with_tissue] = efforts;
         let kg = self.human.build.mass;
         let prices = WORK_PRICES;
         let power = Quantity::RootPower { effort: effort.clone(), prices, smooth_w: SMOOTH * kg };
         self.add("power", power, 0.0, (self.costs.power * kg).sqrt(), Bound::Near);
-        let [positive, negative] = self.strength(name, movement, sign);
-        for (bound, strength, direction) in [(Bound::AtMost, positive, 1.0), (Bound::AtLeast, negative, -1.0)] {
-            let quantity = || Quantity::Effort(effort.clone());
-            self.add("effort", quantity(), 0.0, self.costs.strength * strength, bound);
-            self.add(OVERLOAD, quantity(), direction * strength, self.costs.weakness * strength, bound);
+        let strength = self.strength(name, movement, sign);
+        let share =
+            |effort: &Effort, sign| Quantity::Activation { effort: effort.clone(), strength: strength.clone(), sign };
+        // The isometric moments of the table hold the passive forces of tissue.
+        for sign in [1.0, -1.0] {
+            self.add("effort", share(effort, sign), 0.0, self.costs.strength, Bound::AtMost);
+            self.add(OVERLOAD, share(with_tissue, sign), 1.0, self.costs.weakness, Bound::AtMost);
         }
     }
 
-    /// Strength of a coordinate in its positive and its negative direction [N.m].
-    fn strength(&self, name: &str, movement: Option<Movement>, sign: f64) -> [f64; 2] {
-        let size = self.human.build.mass * 9.80665 * self.human.build.height * self.conditions.strength(name);
-        let [a, b] = strength_of(movement).map(|share| share * size);
-        if sign > 0.0 { [a, b] } else { [b, a] }
+    /// What the muscles of a coordinate can do, with the share that its condition leaves.
+    fn strength(&self, name: &str, movement: Option<Movement>, sign: f64) -> StrengthCurve {
+        let Build { mass, height, .. } = self.human.build;
+        let curve = StrengthCurve::of_movement(movement, mass, height).scaled(self.conditions.strength(name));
+        if sign > 0.0 { curve } else { curve.reversed() }
     }
 
     /// Moments of joints change slowly.
@@ -262,13 +249,13 @@ impl Solution {
         let step_s = problem.duration_s / (problem.instants() - 1) as f64;
         let mut worst: Option<(f64, Overload)> = None;
         for term in problem.terms.iter().filter(|term| term.name == OVERLOAD) {
-            let Quantity::Effort(effort) = &term.quantity else { continue };
-            let strength = term.targets.first().copied().flatten().unwrap_or_default();
-            for (instant, moment) in self.values(&term.quantity).enumerate() {
-                let share = moment / strength;
+            let Quantity::Activation { effort, .. } = &term.quantity else { continue };
+            let moment = Quantity::Effort(effort.clone());
+            let both = self.values(&term.quantity).zip(self.values(&moment));
+            for (instant, (share, moment)) in both.enumerate() {
                 if share > 1.0 + more && worst.as_ref().is_none_or(|(found, _)| share > *found) {
                     let coordinate = model.coordinates()[effort.coordinate.index()].name.clone();
-                    let strength = strength.abs();
+                    let strength = moment.abs() / share;
                     worst = Some((share, Overload { coordinate, moment, strength, time_s: step_s * instant as f64 }));
                 }
             }

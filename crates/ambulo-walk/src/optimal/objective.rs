@@ -2,6 +2,7 @@
 
 use super::effort::{Effort, root_power};
 use super::instant::{ContactValues, Instant};
+use super::strength::StrengthCurve;
 use crate::model::CoordinateId;
 
 /// A quantity of one instant of a motion.
@@ -17,6 +18,16 @@ pub enum Quantity {
     Force(CoordinateId),
     /// Muscle moment or force at a joint [N.m or N].
     Effort(Effort),
+    /// Muscle moment at a joint as a share of what its muscles can do at this angle and speed, in the direction of
+    /// `sign`: above zero in it, below zero against it.
+    Activation {
+        /// Action of the muscles at the joint.
+        effort: Effort,
+        /// What the muscles can do.
+        strength: StrengthCurve,
+        /// Direction: 1 or -1.
+        sign: f64,
+    },
     /// Square root of the power that muscles cost at a joint, √(p₊ P₊ + p₋ P₋) [√W], where P₊ and P₋ are positive and
     /// negative mechanical power. Both are smoothed: P₊ = (P + √(P² + `smooth_w`²)) / 2, P₋ = P₊ - P.
     RootPower {
@@ -125,6 +136,9 @@ impl Quantity {
             Quantity::Acceleration(of) => sum(2, of),
             Quantity::Force(id) | Quantity::ForceRate(id) => at.forces[id.index()],
             Quantity::Effort(effort) => effort.value(instant, at),
+            Quantity::Activation { effort, strength, sign } => {
+                sign * effort.value(instant, at) / strength_at(strength, effort, *sign, at)[0]
+            }
             Quantity::RootPower { effort, prices, smooth_w } => {
                 let rate = at.posture[1][effort.coordinate.index()];
                 root_power(effort.value(instant, at) * rate, *prices, *smooth_w).0
@@ -177,11 +191,14 @@ impl Quantity {
                 effort.push_row(at, 1.0 / scale, full);
                 Row::Full
             }
+            Quantity::Activation { effort, strength, sign } => {
+                push_share(effort, strength, *sign, (instant, at, scale), full);
+                Row::Full
+            }
             Quantity::RootPower { effort, prices, smooth_w } => {
                 let c = effort.coordinate.index();
                 let (force, rate) = (effort.value(instant, at), at.posture[1][c]);
-                let slope = root_power(force * rate, *prices, *smooth_w).1 / scale;
-                let first = full.len();
+                let (first, slope) = (full.len(), root_power(force * rate, *prices, *smooth_w).1 / scale);
                 effort.push_row(at, slope * rate, full);
                 full[first + n + c] += slope * force;
                 Row::Full
@@ -202,4 +219,26 @@ impl Quantity {
             }),
         }
     }
+}
+
+/// What muscles can do at an instant, and its derivatives by angle and rate.
+fn strength_at(strength: &StrengthCurve, effort: &Effort, sign: f64, at: &Instant) -> [f64; 3] {
+    let c = effort.coordinate.index();
+    strength.smooth(at.posture[0][c], at.posture[1][c], sign)
+}
+
+/// Appends the derivatives of an activation, divided by `scale`.
+fn push_share(
+    effort: &Effort,
+    strength: &StrengthCurve,
+    sign: f64,
+    (instant, at, scale): (usize, &Instant, f64),
+    full: &mut Vec<f64>,
+) {
+    let [largest, by_angle, by_rate] = strength_at(strength, effort, sign, at);
+    let share = sign * effort.value(instant, at) / largest;
+    let (n, c, first) = (at.posture[0].len(), effort.coordinate.index(), full.len());
+    effort.push_row(at, sign / (largest * scale), full);
+    full[first + c] -= share * by_angle / (largest * scale);
+    full[first + n + c] -= share * by_rate / (largest * scale);
 }
