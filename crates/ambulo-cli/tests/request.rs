@@ -203,13 +203,14 @@ fn a_request_takes_options_as_they_are_typed() {
     }
     let walk = json!({"walk": {
         "gait": {"gait": "slow", "speed_change": ["3:1.6"]}, "figure": {"mass": 60.5},
-        "conditions": {"load": "12kg:hands", "weak": ["ankle=0.6"], "asymmetric": true},
+        "conditions": {"load": "12kg:hands", "weak": ["ankle=0.6"], "asymmetric": true, "free_cadence": true},
         "mode": "predict", "convention": "opensim", "cycles": 2, "keep": ["grf", "moments"], "output": "my walk",
     }});
     bench.write("request.json", walk.to_string().as_bytes());
     let line = bench.run(&["run", "request.json", "--words"]).done().stdout;
     let expected = "ambulo walk --gait slow --speed-change 3:1.6 --mass 60.5 --load 12:hands --weak ankle=0.6 \
-                    --asymmetric --mode predict --convention opensim --cycles 2 --keep grf,moments -o 'my walk'";
+                    --asymmetric --free-cadence --mode predict --convention opensim --cycles 2 --keep grf,moments -o \
+                    'my walk'";
     if cfg!(unix) {
         assert_eq!(line.trim(), expected);
     }

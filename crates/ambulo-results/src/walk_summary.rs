@@ -89,6 +89,9 @@ pub struct WalkPredictionSummary {
     pub devices: Vec<String>,
     /// Asked distance between the paths of both feet [m].
     pub step_width_m: Option<f64>,
+    /// Cadence of people at this speed [steps/min], where the walk chose its own; `null` where it has theirs.
+    #[serde(default)]
+    pub usual_cadence_steps_min: Option<f64>,
     /// Metabolic power per kilogram of the body without load, by a simple formula: positive joint work / 0.25 +
     /// negative joint work / 1.2 + 1.4 W/kg.
     pub metabolic_power_w_kg: f64,
@@ -106,13 +109,14 @@ impl WalkPredictionSummary {
             strength: conditions.strengths.iter().cloned().collect(),
             devices: conditions.devices.iter().map(|device| device.coordinate.clone()).collect(),
             step_width_m: conditions.step_width_m,
+            usual_cadence_steps_min: report.usual_cadence,
             metabolic_power_w_kg: report.metabolic_power,
             cost_of_transport_j_kg_m: report.metabolic_power / speed,
         }
     }
 
-    /// The conditions in words: slope, load, weak joints, devices, width of steps. Empty for level walking without any
-    /// of them.
+    /// The conditions in words: slope, load, weak joints, devices, width of steps, free cadence. Empty for level
+    /// walking without any of them.
     #[must_use]
     pub fn conditions(&self) -> Vec<String> {
         let uphill = if self.slope_percent > 0.0 { "uphill" } else { "downhill" };
@@ -127,6 +131,12 @@ impl WalkPredictionSummary {
             listed(weak, "strength of"),
             listed(self.devices.clone(), "devices at"),
             self.step_width_m.map(|width| format!("steps {} m wide", rounded(width))),
+            self.usual_cadence_steps_min.map(|usual| {
+                format!(
+                    "its own cadence, where people have {usual:.0} \
+                steps/min"
+                )
+            }),
         ];
         parts.into_iter().flatten().collect()
     }

@@ -134,6 +134,7 @@ mod physical_walk;
 mod plate_orders;
 mod plug_in_gait;
 mod plug_in_gait_planes;
+mod predicted_work;
 mod prediction_checks;
 mod quality;
 mod recordings;

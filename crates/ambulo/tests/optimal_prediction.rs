@@ -8,8 +8,8 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Movement, Side};
 use ambulo::numerics::correlation;
 use ambulo::optimal::{
-    Bound, Device, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Prediction, Quantity,
-    STAGES, Solution, Span, Term, WalkConditions, WalkCosts, WalkProblem, metabolic_power,
+    Bound, Device, ECCENTRIC, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError, Prediction,
+    Quantity, STAGES, Solution, Span, StrengthCurve, Term, WalkConditions, WalkCosts, WalkProblem, metabolic_power,
 };
 use std::sync::LazyLock;
 
@@ -235,6 +235,49 @@ fn a_weak_leg_does_less_than_the_other() {
     assert!(peak(Side::Right) < 0.9 * peak(Side::Left));
     assert!(weak.root() < NO_ROOT_FORCE, "{}", weak.root());
     assert!(weak.found.solution.overload(0.05).is_none(), "{:?}", weak.found.solution.overload(0.05));
+}
+
+/// With half of their strength, both ankles push off with less work and the hips do more; no joint has a moment above
+/// what its muscles can do at this angle and speed, by the table that the verdict uses.
+#[test]
+fn weak_ankles_push_less_and_hips_work_more() {
+    const SHARE: f64 = 0.5;
+    let strengths = ["ankle_angle_r", "ankle_angle_l"].map(|name| (name.to_owned(), SHARE)).to_vec();
+    let weak = MIRRORED.predict(&WalkConditions { strengths, ..WalkConditions::default() });
+    let work = |of: &Predicted, movement: Movement| {
+        let (id, _) = of.human.model.anatomy().coordinate(movement, Some(Side::Right)).unwrap();
+        let power = of.over_cycle(|s| (s.forces[id.index()] * s.posture[1][id.index()]).max(0.0));
+        power.iter().sum::<f64>() / 100.0 * MIRRORED.walk.cycle_s()
+    };
+    for (movement, is_more) in [(Movement::AnkleDorsiflexion, false), (Movement::HipFlexion, true)] {
+        let [with, without] = [work(&weak, movement), work(&LEVEL, movement)];
+        println!("{movement:?}: {with:.1} J with half the strength, {without:.1} J without");
+        assert!(if is_more { with > 1.03 * without } else { with < 0.9 * without }, "{with} and {without}");
+    }
+    let (id, sign) = weak.human.model.anatomy().coordinate(Movement::AnkleDorsiflexion, Some(Side::Right)).unwrap();
+    let curve = StrengthCurve::built_in(Movement::AnkleDorsiflexion, MAN.mass, MAN.height).unwrap();
+    let shares = weak.over_cycle(|s| {
+        let [angle, rate, moment] = [s.posture[0][id.index()], s.posture[1][id.index()], s.forces[id.index()]];
+        moment.abs() / (SHARE * curve.available(sign * angle, sign * rate, sign * moment, ECCENTRIC))
+    });
+    let most = shares.into_iter().fold(0.0, f64::max);
+    println!("at most {:.0} % of the strength that is left", 100.0 * most);
+    assert!((0.8..1.1).contains(&most), "{most}");
+}
+
+/// The cadence of the least cost is near that of people (109.8 steps/min at this speed), and it costs no more.
+#[test]
+fn a_free_cadence_is_near_that_of_people_and_costs_no_more() {
+    let walk = walk_of(&ambulo::model::full_body::full_body(&MAN).unwrap());
+    let conditions = WalkConditions { free_cadence: true, ..WalkConditions::default() };
+    let (free, own) = OptimalWalk::predict_freely(&MAN, &walk, &conditions).unwrap();
+    let usual = OptimalWalk::predict(&MAN, &walk, &WalkConditions::default()).unwrap();
+    let cost = |of: &OptimalWalk| of.solution.progress.last().unwrap().cost;
+    let share = walk.cycle_s() / own.cycle_s();
+    println!("{share:.3} of the cadence of people, cost {:.2} instead of {:.2}", cost(&free), cost(&usual));
+    assert!((own.speed() - walk.speed()).abs() < 1e-12);
+    assert!((0.95..=1.05).contains(&share) && (share - 1.0).abs() > 1e-6, "{share}");
+    assert!(cost(&free) < cost(&usual), "{} and {}", cost(&free), cost(&usual));
 }
 
 #[test]

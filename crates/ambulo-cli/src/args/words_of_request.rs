@@ -127,6 +127,7 @@ fn of_walk(args: &WalkArgs, words: &mut Words) {
     words.path("--device", conditions.device.as_ref());
     words.value("--step-width", conditions.step_width);
     words.flag("--asymmetric", conditions.asymmetric);
+    words.flag("--free-cadence", conditions.free_cadence);
     words.value("--mode", args.mode.and_then(|mode: WalkMode| word(&mode)));
     words.flag("--planar", args.planar);
     let convention = Some(args.convention).filter(|used| *used != defaults.convention);

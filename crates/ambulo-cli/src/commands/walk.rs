@@ -125,7 +125,7 @@ fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<Syn
     match asked {
         None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
         Some(mode) => {
-            let fields = &["slope", "load", "weak", "device", "step_width", "asymmetric"];
+            let fields = &["slope", "load", "weak", "device", "step_width", "asymmetric", "free_cadence"];
             let what = format!(
                 "found the mode {mode}; expected the mode predict, because the other modes do not support them"
             );
@@ -154,6 +154,7 @@ fn conditions(args: &WalkArgs, read: &mut Vec<PathBuf>) -> Result<WalkConditions
         devices,
         step_width_m: asked.step_width,
         asymmetric: asked.asymmetric,
+        free_cadence: asked.free_cadence,
     })
 }
 

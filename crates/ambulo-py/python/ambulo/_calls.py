@@ -628,6 +628,7 @@ def walk(
     device: Path | None = None,
     step_width: float | None = None,
     asymmetric: bool = False,
+    free_cadence: bool = False,
     torques: Path | None = None,
     cycles: int | None = None,
     rate: float | None = None,
@@ -677,6 +678,8 @@ def walk(
         Distance between the paths of both feet [m].
     asymmetric : bool, optional
         Let both sides move differently.
+    free_cadence : bool, optional
+        Choose cadence and step length too, for the least cost at the speed.
     torques : str or path-like, optional
         Replay torques of a file without feedback.
     cycles : int, optional
@@ -727,6 +730,7 @@ def walk(
             "device": device,
             "step_width": step_width,
             "asymmetric": asymmetric,
+            "free_cadence": free_cadence,
         },
         "mode": mode,
         "torques": torques,

@@ -23,6 +23,8 @@ pub struct WalkConditions {
     pub step_width_m: Option<f64>,
     /// Whether both sides may move differently even if their conditions are the same.
     pub asymmetric: bool,
+    /// Whether cadence and step length are those of the least cost at the speed of the walk, instead of the walk's own.
+    pub free_cadence: bool,
 }
 
 /// A load that moves with the body.

@@ -100,8 +100,8 @@ impl OptimalWalk {
         OptimalWalk { human, problem, solution, conditions: WalkConditions::default() }
     }
 
-    /// Predicts the walk of a figure under some conditions, without normative curves as targets. If the conditions
-    /// differ between the sides, so does the walk.
+    /// Predicts the walk of a figure under some conditions, without normative curves as targets, at the speed and the
+    /// cadence of a walk. If the conditions differ between the sides, so does the walk.
     ///
     /// # Errors
     /// As [`OptimalWalk::find`]; conditions that do not fit the figure; muscles that are too weak.
@@ -120,13 +120,8 @@ impl OptimalWalk {
             (whole, unknowns)
         };
         let found = start.predict(&human, walk, &EffortCosts::default(), &conditions, &unknowns)?;
-        let overload = found.solution.overload(LARGEST_OVERLOAD);
         let found = OptimalWalk { human, problem: found.problem, solution: found.solution, conditions };
-        // Muscles that are too weak leave forces at the root too; the muscles are the cause.
-        if let Some(overload) = overload {
-            return Err(OptimalWalkError::TooWeak { speed: walk.speed(), overload });
-        }
-        found.check(walk)?;
+        found.check_prediction(walk)?;
         Ok(found)
     }
 
@@ -142,6 +137,15 @@ impl OptimalWalk {
             posture[0].clone()
         };
         problem.shares().into_iter().map(at).collect()
+    }
+
+    /// Checks that muscles can do the motion, and that it needs no force from outside.
+    pub(super) fn check_prediction(&self, walk: &Walk) -> Result<(), OptimalWalkError> {
+        // Muscles that are too weak leave forces at the root too; the muscles are the cause.
+        if let Some(overload) = self.solution.overload(LARGEST_OVERLOAD) {
+            return Err(OptimalWalkError::TooWeak { speed: walk.speed(), overload });
+        }
+        self.check(walk)
     }
 
     /// Checks that the motion needs no force from outside.

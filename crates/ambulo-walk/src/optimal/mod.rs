@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per
-//! step. Not handled: obstacles, unknown durations; slopes are inclined gravity.
+//! step. Not handled: obstacles, durations as unknowns (predictions compare several); slopes are inclined gravity.
 //! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs
 
 pub(crate) mod layout;
@@ -31,6 +31,7 @@ mod conditions;
 pub(crate) mod effort;
 mod error;
 mod find;
+mod free_cadence;
 mod movement;
 mod muscles;
 mod near;

@@ -31,12 +31,33 @@ pub(super) fn predicted(
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let (walk, kept) = planned(settings, findings)?;
-    let found = OptimalWalk::predict(&settings.build, &walk, conditions)?;
+    if !conditions.free_cadence {
+        let found = OptimalWalk::predict(&settings.build, &walk, conditions)?;
+        return reported(settings, (walk, kept), found, None);
+    }
+    let pace = settings.gait.pace;
+    if pace.step_length.is_some() || pace.step_frequency.is_some() {
+        return Err(SyntheticError::GivenSteps { gait: settings.gait.name.clone() });
+    }
+    let (found, own) = OptimalWalk::predict_freely(&settings.build, &walk, conditions)?;
+    let settings = &SyntheticWalkSettings { gait: own.gait(), ..*settings };
+    // The usual cadence has had its findings.
+    let planned = planned(settings, &mut Findings::default())?;
+    reported(settings, planned, found, Some(120.0 / walk.cycle_s()))
+}
+
+/// A predicted walk with its report.
+fn reported(
+    settings: &SyntheticWalkSettings<'_>,
+    (walk, kept): (Walk, KeptPart),
+    found: OptimalWalk,
+    usual_cadence: Option<f64>,
+) -> Result<SyntheticWalk, SyntheticError> {
     let conditions = found.conditions.clone();
     let (mass, devices) = (settings.build.mass, &conditions.devices);
     let metabolic_power = metabolic_power(&found.solution, &walk, mass, devices).map_err(OptimalWalkError::from)?;
     let mut predicted = made(settings, walk, &kept, found)?;
-    predicted.report.prediction = Some(PredictionReport { conditions, metabolic_power });
+    predicted.report.prediction = Some(PredictionReport { conditions, metabolic_power, usual_cadence });
     Ok(predicted)
 }
 

@@ -161,6 +161,15 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// A free cadence is found, not given.
+    #[error(
+        "the gait `{gait}`: found a length or a frequency of its steps, and a free cadence; expected one of them, \
+         because a free cadence and its step length follow from the speed"
+    )]
+    GivenSteps {
+        /// Name of the gait.
+        gait: String,
+    },
     /// A controller follows one gait and changes its speed.
     #[error(
         "the gait `{gait}`: found machines, sides that differ, standing at the start, or changes of step length or \

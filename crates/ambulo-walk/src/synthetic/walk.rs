@@ -87,6 +87,8 @@ pub struct PredictionReport {
     pub conditions: WalkConditions,
     /// Metabolic power by the formula of [`crate::optimal::metabolic_power`] [W/kg of the body without load].
     pub metabolic_power: f64,
+    /// Cadence of people at this speed [steps/min] where the walk chose its own; `None` where it has theirs.
+    pub usual_cadence: Option<f64>,
 }
 
 /// A change of pace and what it leads to.

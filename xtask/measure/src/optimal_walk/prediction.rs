@@ -7,6 +7,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::Human;
 use ambulo::model::full_body::full_body;
+use ambulo::model::{Movement, Side};
 use ambulo::numerics::correlation;
 use ambulo::optimal::{Device, Load, LoadPlace, OptimalWalk, WalkConditions, metabolic_power};
 use ambulo::study::validation::TextTable as Table;
@@ -32,7 +33,14 @@ struct Predicted {
     cycle: Cycle,
     power: f64,
     seconds: f64,
+    /// Cadence [steps/min].
+    cadence: f64,
+    /// Positive work of hip, knee and ankle of the right leg in a cycle [J/kg of everything that moves].
+    work: [f64; 3],
 }
+
+/// Instants of a cycle at which work is summed.
+const WORK_INSTANTS: usize = 400;
 
 /// Free walking of a figure with a leg [m] at a speed; without a cadence [steps/s], that of people.
 fn gait(leg_length: f64, speed: Speed, cadence: Option<f64>) -> Result<Gait, String> {
@@ -58,11 +66,30 @@ fn predict(
     )
     .map_err(|e| e.to_string())?;
     let clock = ThreadTime::now();
-    let found = OptimalWalk::predict(&MAN, &walk, conditions).map_err(|e| e.to_string())?;
+    let (found, walk) = if conditions.free_cadence {
+        OptimalWalk::predict_freely(&MAN, &walk, conditions)
+    } else {
+        OptimalWalk::predict(&MAN, &walk, conditions).map(|found| (found, walk))
+    }
+    .map_err(|e| e.to_string())?;
     let seconds = clock.elapsed().as_secs_f64();
     let cycle = Cycle::of(&found.human, &walk, &found.problem, &found.solution)?;
     let power = power(&found, &walk)?;
-    Ok(Predicted { found, cycle, power, seconds })
+    let (cadence, work) = (120.0 / walk.cycle_s(), work(&found, &walk)?);
+    Ok(Predicted { found, cycle, power, seconds, cadence, work })
+}
+
+fn work(found: &OptimalWalk, walk: &Walk) -> Result<[f64; 3], String> {
+    let step_s = walk.cycle_s() / WORK_INSTANTS as f64;
+    let times: Vec<f64> = (0..WORK_INSTANTS).map(|k| step_s * k as f64).collect();
+    let samples = found.solution.samples(&times).map_err(|e| e.to_string())?;
+    let anatomy = found.human.model.anatomy();
+    let of = |movement: Movement| {
+        let Some((id, _)) = anatomy.coordinate(movement, Some(Side::Right)) else { return f64::NAN };
+        let powers = samples.iter().map(|at| (at.forces[id.index()] * at.posture[1][id.index()]).max(0.0));
+        powers.sum::<f64>() * step_s / found.human.model.mass()
+    };
+    Ok([Movement::HipFlexion, Movement::KneeFlexion, Movement::AnkleDorsiflexion].map(of))
 }
 
 fn power(found: &OptimalWalk, walk: &Walk) -> Result<f64, String> {
@@ -73,8 +100,8 @@ fn power(found: &OptimalWalk, walk: &Walk) -> Result<f64, String> {
 pub(super) fn section(people: &[Vec<Band>; 5]) -> Result<String, String> {
     let human = full_body(&MAN).map_err(|e| e.to_string())?;
     Ok(format!(
-        "`ambulo walk --mode predict`: metabolic power, muscle moments relative to strength and rates of moments are \
-         minimised; no curve of people is a\n\
+        "`ambulo walk --mode predict`: metabolic power, activations of muscles and rates of moments are minimised; no \
+         curve of people is a\n\
          target (docs/OPTIMAL.md). The solver starts from the walk that follows people. Weights were set by hand on \
          free walking of the main figure with\n\
          the first laboratory; then the others were looked at, and nothing was changed.\n\n{}\n{}\n{}\n{}",
@@ -112,14 +139,6 @@ fn speeds(human: &Human, people: &[Vec<Band>; 5]) -> Result<String, String> {
         let asked = asked.map_or_else(String::new, |least| format!(">= {least:.2}"));
         table.row([quantity.name.to_owned(), asked, a, b, c, d, e, second]);
     }
-    let peaks = |walk: &Predicted| {
-        let force = walk.cycle.curves.iter().zip(QUANTITIES).find(|(_, q)| q.name == "vertical force").map(|(c, _)| c);
-        let stance: Vec<f64> = force.into_iter().flatten().copied().collect();
-        let (first, last) = stance.split_at(stance.len() * 3 / 10);
-        let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
-        let valley = stance[stance.len() / 5..stance.len() * 2 / 5].iter().copied().fold(f64::INFINITY, f64::min);
-        [largest(first), valley, largest(last)]
-    };
     let hump = |walk: &Predicted| peaks(walk).map(|value| format!("{value:.2}")).join(" / ");
     let [first, valley, second] = peaks(&walks[FREE]);
     let met = (1.0..=1.25).contains(&first) && valley < first.min(second);
@@ -144,6 +163,16 @@ fn speeds(human: &Human, people: &[Vec<Band>; 5]) -> Result<String, String> {
         String::new(),
     ]);
     Ok(table.text())
+}
+
+/// Humps of the vertical force, and the valley between them [weights of everything that moves].
+fn peaks(walk: &Predicted) -> [f64; 3] {
+    let force = walk.cycle.curves.iter().zip(QUANTITIES).find(|(_, q)| q.name == "vertical force").map(|(c, _)| c);
+    let stance: Vec<f64> = force.into_iter().flatten().copied().collect();
+    let (first, last) = stance.split_at(stance.len() * 3 / 10);
+    let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+    let valley = stance[stance.len() / 5..stance.len() * 2 / 5].iter().copied().fold(f64::INFINITY, f64::min);
+    [largest(first), valley, largest(last)]
 }
 
 fn transport(human: &Human) -> Result<String, String> {
@@ -232,6 +261,9 @@ fn conditions(human: &Human) -> Result<String, String> {
             "springs of 100 N.m/rad at both ankles",
             WalkConditions { devices: vec![spring("r"), spring("l")], ..level() },
         ),
+        ("level, free cadence", WalkConditions { free_cadence: true, ..level() }),
+        ("8 % uphill, free cadence", WalkConditions { slope: 0.08, free_cadence: true, ..level() }),
+        ("15 kg on the back, free cadence", WalkConditions { load, free_cadence: true, ..level() }),
     ];
     let moments = ["hip extension moment", "knee extension moment", "plantarflexion moment"];
     let mut table = Table::new(&[
@@ -239,6 +271,9 @@ fn conditions(human: &Human) -> Result<String, String> {
         "hip [N.m/kg]",
         "knee [N.m/kg]",
         "ankle [N.m/kg]",
+        "positive work [J/kg]: hip, knee, ankle",
+        "first hump [BW]",
+        "cadence [steps/min]",
         "metabolic power [W/kg]",
         "CPU [s]",
     ]);
@@ -249,11 +284,16 @@ fn conditions(human: &Human) -> Result<String, String> {
             format!("{:.2}", curve.into_iter().flatten().copied().fold(f64::MIN, f64::max))
         };
         let [hip, knee, ankle] = moments.map(peak);
-        table.row([name.to_owned(), hip, knee, ankle, format!("{:.2}", found.power), format!("{:.1}", found.seconds)]);
+        let work = found.work.map(|work| format!("{work:.3}")).join(", ");
+        let hump = format!("{:.2}", peaks(&found)[0] * found.found.human.model.mass() / MAN.mass);
+        let [cadence, power] = [format!("{:.1}", found.cadence), format!("{:.2}", found.power)];
+        let seconds = format!("{:.1}", found.seconds);
+        table.row([name.to_owned(), hip, knee, ankle, work, hump, cadence, power, seconds]);
     }
     Ok(format!(
-        "**Conditions** at free speed: largest extension moments of the right leg per kilogram that moves, and \
-         metabolic power per kilogram of the body.\n\n{}",
+        "**Conditions** at free speed: largest extension moments and positive work of the right leg in a cycle, per \
+         kilogram that moves; first hump\n\
+         of the vertical force, in weights of the body alone; metabolic power per kilogram of the body.\n\n{}",
         table.text()
     ))
 }

@@ -1,0 +1,112 @@
+//! Predicted walks that choose their cadence: at a given speed, the cadence of the least cost.
+//!
+//! The duration of a problem is fixed, so problems at several cadences are solved, each from the solution beside it.
+//! Three cadences, the middle one of which costs least, give a parabola, and its vertex is the cadence that is chosen.
+//! Costs of neighbours differ by some percent, and the solver stops within about one percent of a minimum; therefore
+//! each solution gets some more steps, and cadences are [`STEP`] apart.
+
+use super::conditions::WalkConditions;
+use super::error::OptimalWalkError;
+use super::find::OptimalWalk;
+use super::muscles::EffortCosts;
+use super::solve::Continuation;
+use super::walk::{WalkCosts, WalkProblem};
+use crate::findings::Findings;
+use crate::gait::{Gait, Walk};
+use crate::model::anthropometry::Build;
+use crate::model::full_body::full_body;
+
+/// Distance of the cadences that are compared, as a share of that of the walk.
+const STEP: f64 = 0.07;
+/// Cadences beyond the first one on either side.
+const FARTHEST: i32 = 2;
+/// More steps of the solver near a solution.
+const POLISH: [Continuation; 2] = [
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 2, steps: 30, gain: 1e-4 },
+    Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.00003, updates: 6, steps: 30, gain: 1e-4 },
+];
+
+/// A walk at one of the cadences.
+struct Tried {
+    /// Number of steps from the cadence of the walk.
+    place: i32,
+    found: OptimalWalk,
+    walk: Walk,
+    cost: f64,
+}
+
+impl Tried {
+    fn new(place: i32, mut found: OptimalWalk, walk: Walk) -> Result<Tried, OptimalWalkError> {
+        found.solution = found.problem.problem.solve(found.solution.unknowns(), &POLISH)?;
+        found.check_prediction(&walk)?;
+        let cost = found.solution.progress.last().map_or(f64::INFINITY, |last| last.cost);
+        Ok(Tried { place, found, walk, cost })
+    }
+
+    /// The walk at another cadence; `None` if there is none.
+    fn at(&self, build: &Build, gait: &Gait, place: i32) -> Option<Tried> {
+        let walk = Walk::new(gait, self.walk.leg_length(), &mut Findings::default()).ok()?;
+        Tried::new(place, self.found.near(build, &walk).ok()?, walk).ok()
+    }
+}
+
+impl OptimalWalk {
+    /// As [`OptimalWalk::predict`], at the cadence of the least cost within a fifth of that of `walk`, and the walk
+    /// with this cadence. The speed stays.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::predict`]. Other cadences at which no walk is found are not chosen.
+    pub fn predict_freely(
+        build: &Build,
+        walk: &Walk,
+        conditions: &WalkConditions,
+    ) -> Result<(OptimalWalk, Walk), OptimalWalkError> {
+        let gait = |steps: f64| {
+            let steps_s = 2.0 * (1.0 + STEP * steps) / walk.cycle_s();
+            let pace = walk.gait().pace.with(Some(walk.speed()), None, Some(steps_s));
+            Gait { pace, ..walk.gait().clone() }
+        };
+        let mut tried = vec![Tried::new(0, OptimalWalk::predict(build, walk, conditions)?, walk.clone())?];
+        let mut best = 0;
+        loop {
+            let place = tried[best].place;
+            for beside in [place - 1, place + 1] {
+                if beside.abs() <= FARTHEST && tried.iter().all(|known| known.place != beside) {
+                    tried.extend(tried[best].at(build, &gait(f64::from(beside)), beside));
+                }
+            }
+            let least = (0..tried.len()).min_by(|&a, &b| tried[a].cost.total_cmp(&tried[b].cost)).unwrap_or(best);
+            if least == best {
+                break;
+            }
+            best = least;
+        }
+        let place = tried[best].place;
+        let cost = |beside: i32| tried.iter().find(|known| known.place == beside).map(|known| known.cost);
+        let at_vertex = match (cost(place - 1), cost(place + 1)) {
+            (Some(slower), Some(faster)) => {
+                let steps = f64::from(place) + vertex(slower, tried[best].cost, faster);
+                tried[best].at(build, &gait(steps), place)
+            }
+            _ => None,
+        };
+        let chosen = at_vertex.unwrap_or_else(|| tried.swap_remove(best));
+        Ok((chosen.found, chosen.walk))
+    }
+
+    /// The same prediction of another walk, from this one.
+    fn near(&self, build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
+        let known = &self.problem.problem;
+        let level = full_body(build)?;
+        let base = WalkProblem::over(known.span, &level, &known.soles, known.shoes, walk, &WalkCosts::default())?;
+        let problem = base.of_muscles(&self.human, walk, &EffortCosts::default(), &self.conditions, 0.0);
+        let solution = problem.solve_near(&self.problem, self.solution.unknowns())?;
+        Ok(OptimalWalk { human: self.human.clone(), problem, solution, conditions: self.conditions.clone() })
+    }
+}
+
+/// Place of the vertex of the parabola through values at -1, 0 and 1, of which the middle one is the least.
+fn vertex(before: f64, least: f64, after: f64) -> f64 {
+    let curvature = before - 2.0 * least + after;
+    if curvature > 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
+}
