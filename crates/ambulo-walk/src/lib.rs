@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`gait`] | joint curves against phase and speed, steps, state machines |
 //! | [`optimal`] | motions that obey mechanics and cost little |
+//! | [`figure_shape`] | the solids of a person: how bodies look, and where they touch the ground |
 //! | [`engine`] | worlds of rigid bodies, stepped through time |
 //! | [`walking`], [`consistent_walk`] | figures that walk in a world, and walks without outside forces |
 //! | [`control`], [`tuning`] | figures that walk by their own torques, and the search for their gains |
@@ -14,6 +15,8 @@
 
 #[doc(no_inline)]
 pub use ambulo_body::{contact, dynamics, findings, kinematics, model, motion, numerics, spatial, toml_reader};
+
+pub mod figure_shape;
 
 pub mod gait;
 

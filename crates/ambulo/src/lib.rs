@@ -84,7 +84,7 @@ pub use ambulo_body::{
 };
 #[doc(inline)]
 pub use ambulo_muscles as muscles;
-pub use ambulo_walk::{gait, optimal};
+pub use ambulo_walk::{figure_shape, gait, optimal};
 
 pub mod ground;
 

@@ -12,6 +12,9 @@ const HEAD: &str = "time,kind,first,second,px,py,pz,nx,ny,nz,fx,fy,fz,normal_for
 /// Maximum number of drawn pairs; those with the largest forces are drawn.
 const MOST_PAIRS: usize = 32;
 
+/// Bodies of a foot without their side, in built-in figures and in OpenSim models.
+const FOOT: [&str; 2] = ["calcn", "toes"];
+
 /// Sum over the contact points of a pair at one instant.
 #[derive(Clone, Copy, Default)]
 struct Sum {
@@ -35,7 +38,7 @@ pub(super) fn read(
             continue;
         };
         let [px, py, pz, _, _, _, fx, fy, fz, normal] = row.numbers(4)?;
-        let pair = (row.word(2)?.to_owned(), row.word(3)?.to_owned());
+        let pair = (owner(row.word(2)?), owner(row.word(3)?));
         let sum = pairs.entry(pair).or_default().entry(instant).or_default();
         sum.force += Vec3::new(fx, fy, fz);
         sum.moment += Vec3::new(px, py, pz) * normal;
@@ -52,6 +55,15 @@ pub(super) fn read(
         left + MOST_PAIRS
     );
     Ok((forces, (left > 0).then_some(note)))
+}
+
+/// The body on which a force acts; rear foot and toes are one foot.
+fn owner(body: &str) -> String {
+    let foot = body.rsplit_once('/').and_then(|(figure, name)| {
+        let (side, stem) = Side::split_name(name)?;
+        FOOT.contains(&stem.as_str()).then(|| format!("{figure}/foot_{}", side.letter()))
+    });
+    foot.unwrap_or_else(|| body.to_owned())
 }
 
 fn arrow((first, second): &(String, String), sums: &BTreeMap<usize, Sum>, instants: usize) -> StageForce {

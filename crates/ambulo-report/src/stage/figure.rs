@@ -1,16 +1,14 @@
 //! The stage of a figure: a model with its coordinates over time, and forces.
 
-use super::joint_places::JointPlaces;
-use super::limb::{dot, limb};
 use super::muscle;
-use super::part::Part;
 use super::path::BodyPath;
-use super::{ForceRole, Stage, StageBody, StagePlate, arrow, floor, foot, person, torque, trunk};
+use super::{ForceRole, Stage, StageBody, StageContact, StagePlate, arrow, floor, sole, torque, view_shapes};
 use crate::page::ViewShape;
+use ambulo::figure_shape::{BodySolid, FigureShape};
 use ambulo::findings::Findings;
 use ambulo::kinematics::{Trajectory, each_body_motion};
-use ambulo::model::anthropometry::Dimensions;
-use ambulo::model::{BodyId, Model};
+use ambulo::model::anatomy::SolePoint;
+use ambulo::model::{BodyId, Model, Side};
 use ambulo::motion::{Motion, SmoothMotion, TimeGrid, coordinates_from_table};
 use ambulo::muscles::set::MuscleSet;
 use ambulo_formats::osim::OsimModel;
@@ -88,35 +86,30 @@ impl Stage {
     }
 
     fn put_soles_on_the_floor(&mut self, model: &Model, stature_m: Option<f64>) {
-        let places = JointPlaces::new(model);
-        let stature = person::stature(&places, stature_m);
-        let Some(size) = person::lengths(stature) else { return };
-        let (shapes, contacts) = shapes(&places, stature, &size, foot::sunk(self));
-        for (body, shapes) in self.bodies.iter_mut().zip(shapes) {
-            body.shapes = shapes;
+        let shape = FigureShape::new(model, stature_m, sole::sunk(self));
+        for (body, solids) in self.bodies.iter_mut().zip(&shape.solids) {
+            body.shapes = view_shapes(solids);
         }
-        self.contacts = contacts;
+        self.contacts = contacts(&shape);
     }
 
     /// The stage of a model's motion without forces; `stature` [m] if known.
     pub(crate) fn of_motion(model: &Model, trajectory: &Trajectory, stature_m: Option<f64>) -> Stage {
-        let places = JointPlaces::new(model);
-        let stature = person::stature(&places, stature_m);
-        let shapes = person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]));
-        let (shapes, contacts) = shapes.unwrap_or_default();
+        let shape = FigureShape::new(model, stature_m, [0.0; 2]);
+        let contacts = contacts(&shape);
         let paths = paths(model, trajectory);
-        let body = |((body, shapes), path): ((BodyId, Vec<ViewShape>), BodyPath)| {
+        let body = |((body, solids), path): ((BodyId, &Vec<BodySolid>), BodyPath)| {
             let described = &model.bodies()[body.index()];
             StageBody {
                 name: described.name.clone(),
                 parent: described.joint.parent.map(BodyId::index),
-                side: places.side(body),
-                shapes,
+                side: model.anatomy().body_side(body),
+                shapes: view_shapes(solids),
                 path,
                 recorded: None,
             }
         };
-        let bodies: Vec<StageBody> = model.body_ids().zip(shapes).zip(paths).map(body).collect();
+        let bodies: Vec<StageBody> = model.body_ids().zip(&shape.solids).zip(paths).map(body).collect();
         let floor_m = floor::height(&[], &[], &bodies, &contacts);
         Stage {
             grid: trajectory.grid(),
@@ -146,29 +139,16 @@ fn muscle_set(folder: &Folder<'_>, model: &Model) -> Result<Result<MuscleSet, St
 
 /// Shapes of the bodies of a model, in their own axes.
 pub(crate) fn figure_shapes(model: &Model) -> Vec<Vec<ViewShape>> {
-    let places = JointPlaces::new(model);
-    let stature = person::stature(&places, None);
-    person::lengths(stature).map(|size| shapes(&places, stature, &size, [0.0; 2]).0).unwrap_or_default()
+    FigureShape::new(model, None, [0.0; 2]).solids.iter().map(|solids| view_shapes(solids)).collect()
 }
 
-fn shapes(
-    places: &JointPlaces<'_>,
-    stature: f64,
-    size: &Dimensions,
-    sunk: [f64; 2],
-) -> (Vec<Vec<ViewShape>>, Vec<super::StageContact>) {
-    let feet = foot::feet(places, stature, size, sunk);
-    let of = |body: BodyId| match places.part(body) {
-        _ if let Some(foot) = feet.iter().find(|foot| foot.rear == body) => foot.rear_shapes(places, size),
-        _ if let Some(foot) = feet.iter().find(|foot| foot.toes == Some(body)) => foot.toe_shapes(places, size),
-        Part::Pelvis => trunk::pelvis(places, body, size),
-        Part::Trunk => trunk::trunk(places, body, size),
-        Part::Head => trunk::head(places, body, size),
-        Part::Small => vec![dot(places.mass_center(body), stature)],
-        _ => limb(places, body, stature),
+fn contacts(shape: &FigureShape) -> Vec<StageContact> {
+    let of = |(side, point): &(Side, SolePoint)| StageContact {
+        body: point.body.index(),
+        place: point.place,
+        side: Some(*side),
     };
-    let shapes = places.model.body_ids().map(of).collect();
-    (shapes, feet.iter().flat_map(foot::Foot::contacts).collect())
+    shape.soles.iter().map(of).collect()
 }
 
 fn paths(model: &Model, trajectory: &Trajectory) -> Vec<BodyPath> {

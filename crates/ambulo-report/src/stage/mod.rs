@@ -8,24 +8,20 @@ mod contact_forces;
 pub(crate) mod csv_rows;
 mod figure;
 mod floor;
-mod foot;
 mod ground_plane;
-mod joint_places;
-mod limb;
 mod muscle;
-mod part;
 pub(crate) mod path;
-mod person;
 mod scene;
+mod sole;
 mod sound;
 mod torque;
-mod trunk;
 
 pub(crate) use figure::{FolderMotion, figure_shapes, folder_motion};
 pub use path::quaternion;
 pub(crate) use path::{BodyPath, upward_to};
 
 use super::page::ViewShape;
+use ambulo::figure_shape::BodySolid;
 use ambulo::model::Side;
 use ambulo::motion::TimeGrid;
 use ambulo::spatial::Vec3;
@@ -162,7 +158,16 @@ pub struct StageMuscle {
     pub activation: Vec<f64>,
 }
 
-/// A cylinder with round ends.
-fn capsule(from: Vec3, to: Vec3, radius: f64) -> ViewShape {
-    ViewShape::Capsule { from: from.into(), to: to.into(), radius }
+/// Solids of a body as shapes.
+fn view_shapes(solids: &[BodySolid]) -> Vec<ViewShape> {
+    let of = |solid: &BodySolid| match solid {
+        BodySolid::Capsule { from, to, radius } => {
+            ViewShape::Capsule { from: (*from).into(), to: (*to).into(), radius: *radius }
+        }
+        BodySolid::Faces { points, triangles } => ViewShape::Mesh {
+            points: points.iter().map(|point| (*point).into()).collect(),
+            triangles: triangles.clone(),
+        },
+    };
+    solids.iter().map(of).collect()
 }

@@ -4,12 +4,11 @@
 //! by bisection. So a heavy thigh is thick and the thigh of a child is thin. The radius of bodies without mass is a
 //! share of their length.
 
-use super::capsule;
+use super::BodySolid;
 use super::joint_places::JointPlaces;
 use super::part::Part;
-use crate::page::ViewShape;
-use ambulo::model::BodyId;
-use ambulo::spatial::Vec3;
+use crate::model::BodyId;
+use crate::spatial::Vec3;
 use std::f64::consts::PI;
 
 /// Density of limbs [kg/m³]: Winter 2009, table 4.1, has 1050 for thighs, 1090 for shanks, 1070 for upper arms
@@ -42,28 +41,29 @@ pub(super) fn radius(length: f64, mass: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Nested capsules between two points for a body of this mass; a dot if the points coincide.
-fn flesh(from: Vec3, to: Vec3, mass: f64, stature: f64) -> Vec<ViewShape> {
+/// Nested capsules between two points, the thickest of a radius [m]; a dot if the points coincide.
+pub(super) fn flesh(from: Vec3, to: Vec3, thick: f64, stature: f64) -> Vec<BodySolid> {
     let along = to - from;
     if along.norm() < SHORT * stature {
         return vec![dot(from, stature)];
     }
-    let thick = radius(along.norm(), mass);
-    PARTS.map(|[start, end, share]| capsule(from + along * start, from + along * end, thick * share)).to_vec()
+    PARTS
+        .map(|[start, end, share]| BodySolid::capsule(from + along * start, from + along * end, thick * share))
+        .to_vec()
 }
 
 /// A small ball.
-pub(super) fn dot(at: Vec3, stature: f64) -> ViewShape {
-    capsule(at, at, DOT * stature)
+pub(super) fn dot(at: Vec3, stature: f64) -> BodySolid {
+    BodySolid::capsule(at, at, DOT * stature)
 }
 
 /// Capsules from the joint of the body to the joints of its children; a body without children ends as far beyond its
 /// mass centre as its joint is on the other side.
-pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<ViewShape> {
+pub(super) fn limb(places: &JointPlaces<'_>, body: BodyId, stature: f64) -> Vec<BodySolid> {
     let own = places.own(body);
     let ends = ends(places, body);
     let share = places.mass(body) / ends.len().max(1) as f64;
-    ends.into_iter().flat_map(|end| flesh(own, end, share, stature)).collect()
+    ends.into_iter().flat_map(|end| flesh(own, end, radius((end - own).norm(), share), stature)).collect()
 }
 
 fn ends(places: &JointPlaces<'_>, body: BodyId) -> Vec<Vec3> {

@@ -1,10 +1,10 @@
 //! Positions of joints in the bodies that they connect.
 
 use super::part::Part;
-use ambulo::kinematics::{BodyMotion, Posture, body_motion};
-use ambulo::model::anatomy::Leg;
-use ambulo::model::{BodyId, Model, Side};
-use ambulo::spatial::Vec3;
+use crate::kinematics::{BodyMotion, Posture, body_motion};
+use crate::model::anatomy::Leg;
+use crate::model::{BodyId, Model, Side};
+use crate::spatial::Vec3;
 
 /// A model with every coordinate at its default.
 pub(super) struct JointPlaces<'a> {

@@ -6,25 +6,18 @@
 //! they touch the floor while ground forces load the foot: the height of the ankle differs by a few centimetres between
 //! models.
 
-use super::capsule;
+use super::BodySolid;
 use super::joint_places::JointPlaces;
 use super::part::Part;
-use super::{ForceRole, Stage, StageContact};
-use crate::page::ViewShape;
-use ambulo::model::anatomy::{Sole, SolePoint};
-use ambulo::model::anthropometry::{ContactSphere, Dimensions, SpherePart};
-use ambulo::model::{BodyId, Side};
-use ambulo::spatial::Vec3;
-
-/// Share of body weight above which a foot is certainly in stance.
-const ENOUGH: f64 = 0.2;
-/// Soles are not moved further than this [m]: a larger gap is another error, which should be visible.
-const MOST_SUNK: f64 = 0.04;
+use crate::model::anatomy::{Sole, SolePoint};
+use crate::model::anthropometry::{ContactSphere, Dimensions, SpherePart};
+use crate::model::{BodyId, Side};
+use crate::spatial::Vec3;
 
 /// A foot with its sole.
 pub(super) struct Foot {
-    side: Side,
-    sole: Sole,
+    pub(super) side: Side,
+    pub(super) sole: Sole,
     /// The body that heel and ball belong to.
     pub(super) rear: BodyId,
     /// The body of the toes, in front of the ball.
@@ -35,24 +28,6 @@ pub(super) struct Foot {
 pub(super) fn feet(places: &JointPlaces<'_>, stature: f64, size: &Dimensions, sunk: [f64; 2]) -> Vec<Foot> {
     let sides = Side::BOTH.into_iter().zip(sunk);
     sides.filter_map(|(side, sunk)| Foot::new(places, side, stature, size, sunk)).collect()
-}
-
-/// Distance by which the estimated soles of both feet are lowered to touch the floor: the median over all instants in
-/// which a fifth of the weight is on the foot, at most [`MOST_SUNK`].
-pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
-    Side::BOTH.map(|side| {
-        let force = stage.forces.iter().find(|force| force.side == Some(side) && force.role == ForceRole::Main);
-        let carries = |instant: &usize| force.is_some_and(|f| f.force[*instant].y > ENOUGH * stage.weight_n);
-        let lowest = |instant: usize| {
-            let soles = stage.contacts.iter().filter(|contact| contact.side == Some(side));
-            let heights = soles.map(|contact| stage.bodies[contact.body].path.place(instant, contact.place).y);
-            heights.min_by(f64::total_cmp)
-        };
-        let mut gaps: Vec<f64> = (0..stage.grid.frames).filter(carries).filter_map(lowest).collect();
-        gaps.sort_by(f64::total_cmp);
-        let median = gaps.get(gaps.len() / 2).map_or(0.0, |height| height - stage.floor_m);
-        median.clamp(-MOST_SUNK, MOST_SUNK)
-    })
 }
 
 impl Foot {
@@ -69,27 +44,20 @@ impl Foot {
         Some(Foot { side, sole: Sole { points, ..sole }, rear, toes })
     }
 
-    /// Points of the sole; `number` is the place of a body on the stage.
-    pub(super) fn contacts(&self) -> impl Iterator<Item = StageContact> {
-        let of =
-            |point: SolePoint| StageContact { body: point.body.index(), place: point.place, side: Some(self.side) };
-        self.sole.points.into_iter().map(of)
-    }
-
     /// Shapes of the rear foot: from heel, ankle and ball.
-    pub(super) fn rear_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<ViewShape> {
+    pub(super) fn rear_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<BodySolid> {
         let up = places.up(self.rear);
         let [heel, ball, _] = self.sole.points.map(|point| self.in_rear(places, point));
         let (heel, ball) = (heel + up * size.heel_radius, ball + up * size.ball_radius);
         let ankle = self.ankle(places).unwrap_or(heel);
         let mut shapes = vec![
-            capsule(heel, ball, size.ball_radius),
-            capsule(heel, ankle, size.heel_radius),
-            capsule(ankle, ball, size.ball_radius),
+            BodySolid::capsule(heel, ball, size.ball_radius),
+            BodySolid::capsule(heel, ankle, size.heel_radius),
+            BodySolid::capsule(ankle, ball, size.ball_radius),
         ];
         if let Some(across) = up.cross(&(heel - ball)).try_normalize(1e-6) {
             let aside = across * (0.5 * size.foot_width - size.ball_radius).max(0.0);
-            shapes.push(capsule(ball - aside, ball + aside, size.ball_radius));
+            shapes.push(BodySolid::capsule(ball - aside, ball + aside, size.ball_radius));
         }
         if self.toes.is_none() {
             shapes.extend(self.front(places, self.rear, size));
@@ -98,12 +66,12 @@ impl Foot {
     }
 
     /// Shapes of the toes.
-    pub(super) fn toe_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<ViewShape> {
+    pub(super) fn toe_shapes(&self, places: &JointPlaces<'_>, size: &Dimensions) -> Vec<BodySolid> {
         self.toes.map(|toes| self.front(places, toes, size)).unwrap_or_default()
     }
 
     /// Capsules from the ball to the tip, three side by side, in the frame of a body.
-    fn front(&self, places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
+    fn front(&self, places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<BodySolid> {
         let up = places.up(body);
         let [_, ball, tip] = self.sole.points.map(|point| places.seen_from(body, world(places, point)));
         // The sole ends half a width before the tip.
@@ -112,8 +80,8 @@ impl Foot {
         let (ball, tip) = (ball + up * size.toe_radius, tip + up * size.toe_radius);
         let aside = up.cross(&ahead) * (0.5 * size.foot_width - size.ball_radius).max(0.0);
         let shorter = tip - (tip - ball) * 0.12;
-        let outer = |sign: f64| capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
-        vec![capsule(ball, tip, size.toe_radius), outer(1.0), outer(-1.0)]
+        let outer = |sign: f64| BodySolid::capsule(ball + aside * sign, shorter + aside * sign * 0.7, size.toe_radius);
+        vec![BodySolid::capsule(ball, tip, size.toe_radius), outer(1.0), outer(-1.0)]
     }
 
     fn in_rear(&self, places: &JointPlaces<'_>, point: SolePoint) -> Vec3 {

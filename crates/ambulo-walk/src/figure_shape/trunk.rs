@@ -5,13 +5,12 @@
 //! or head, their positions come from the proportions of a person of the same stature (de Leva's table; shoulders:
 //! Dumas 2007).
 
-use super::capsule;
+use super::BodySolid;
 use super::joint_places::JointPlaces;
 use super::part::Part;
-use crate::page::ViewShape;
-use ambulo::model::anthropometry::Dimensions;
-use ambulo::model::{BodyId, Side};
-use ambulo::spatial::Vec3;
+use crate::model::anthropometry::Dimensions;
+use crate::model::{BodyId, Side};
+use crate::spatial::Vec3;
 
 /// Half breadth of a head over its height from chin to vertex: 155 of 230 mm (Drillis and Contini 1966, as in Winter,
 /// figure 4.1; unverified), widened by the depth.
@@ -30,21 +29,21 @@ const BUILDS: [f64; 2] = [0.6, 1.6];
 const PARTED: [f64; 2] = [0.1, 0.22];
 
 /// Shapes of the pelvis, or of a trunk that includes it.
-pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
+pub(super) fn pelvis(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<BodySolid> {
     let hips = places.joints_to(body, Part::Thigh);
     let middle = middle(&hips).unwrap_or_else(|| places.own(body));
     let thick = CHEST * girth(places, size);
-    let mut shapes: Vec<ViewShape> = match hips[..] {
-        [a, b] => vec![capsule(a, b, HIP * girth(places, size))],
-        _ => vec![capsule(middle, middle, thick)],
+    let mut shapes: Vec<BodySolid> = match hips[..] {
+        [a, b] => vec![BodySolid::capsule(a, b, HIP * girth(places, size))],
+        _ => vec![BodySolid::capsule(middle, middle, thick)],
     };
     let above = places.joints_to(body, Part::Trunk);
-    shapes.extend(above.into_iter().map(|joint| capsule(middle, joint, thick)));
+    shapes.extend(above.into_iter().map(|joint| BodySolid::capsule(middle, joint, thick)));
     shapes
 }
 
 /// Shapes of the trunk, including the head if it is not a separate body.
-pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
+pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<BodySolid> {
     let hips = hips(places, body);
     let own = places.own(body);
     let up = upwards(places, body);
@@ -56,9 +55,9 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
         [base + apart * PARTED[0], top - up * thick + apart * PARTED[1]]
     };
     let mut shapes = slab(edge(1.0), edge(-1.0), thick);
-    shapes.push(capsule(left, right, SHOULDER * girth(places, size)));
+    shapes.push(BodySolid::capsule(left, right, SHOULDER * girth(places, size)));
     if let [a, b] = places.joints_to(body, Part::Thigh)[..] {
-        shapes.push(capsule(a, b, HIP * girth(places, size)));
+        shapes.push(BodySolid::capsule(a, b, HIP * girth(places, size)));
     }
     if places.model.body_ids().all(|id| places.part(id) != Part::Head) {
         let vertex = marker(places, body, "vertex").unwrap_or(top + up * above_shoulders(size));
@@ -69,23 +68,24 @@ pub(super) fn trunk(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -
 
 /// A flat body with round edges: a capsule along each edge of a trapezium, whose ends are `right` and `left`, and two
 /// faces that touch the capsules along a line.
-fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<ViewShape> {
+fn slab(right: [Vec3; 2], left: [Vec3; 2], thick: f64) -> Vec<BodySolid> {
     let corners = [right[0], right[1], left[1], left[0]];
-    let mut shapes: Vec<ViewShape> = (0..4).map(|i| capsule(corners[i], corners[(i + 1) % 4], thick)).collect();
+    let mut shapes: Vec<BodySolid> =
+        (0..4).map(|i| BodySolid::capsule(corners[i], corners[(i + 1) % 4], thick)).collect();
     let across = (right[1] - right[0]).cross(&(left[1] - right[0]));
     if let Some(out) = across.try_normalize(1e-12) {
         // Corners are anticlockwise as seen from outside the face.
-        let face = |sign: f64| corners.map(|corner| (corner + out * (sign * thick)).into());
+        let face = |sign: f64| corners.map(|corner| corner + out * (sign * thick));
         let points = face(1.0).into_iter().chain(face(-1.0)).collect();
         let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]];
-        shapes.push(ViewShape::Mesh { points, triangles });
+        shapes.push(BodySolid::Faces { points, triangles });
     }
     shapes
 }
 
 /// Shapes of a head that is a separate body: from its joint to the height above the shoulders that follows from the
 /// stature.
-pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<ViewShape> {
+pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) -> Vec<BodySolid> {
     let own = places.own(body);
     let up = (places.mass_center(body) - own).try_normalize(1e-6).unwrap_or_else(|| places.up(body));
     let trunk = places.model.bodies()[body.index()].joint.parent;
@@ -99,11 +99,11 @@ pub(super) fn head(places: &JointPlaces<'_>, body: BodyId, size: &Dimensions) ->
 }
 
 /// Head and neck between the vertex and the base of the neck.
-fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [ViewShape; 2] {
+fn head_below(vertex: Vec3, foot: Vec3, size: &Dimensions) -> [BodySolid; 2] {
     let up = (vertex - foot).try_normalize(1e-6).unwrap_or_else(Vec3::y);
     let thick = HEAD * size.head;
     let chin = vertex - up * (size.head - thick);
-    [capsule(chin, vertex - up * thick, thick), capsule(foot, chin, NECK * size.height)]
+    [BodySolid::capsule(chin, vertex - up * thick, thick), BodySolid::capsule(foot, chin, NECK * size.height)]
 }
 
 /// The stature [m], decreased for thin and increased for heavy persons: at equal length thickness grows with the root

@@ -1,6 +1,6 @@
 //! Recognises the part of a person that a body is, from its name.
 
-use ambulo::model::Side;
+use crate::model::Side;
 
 /// A part of a person.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
