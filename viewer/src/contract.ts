@@ -47,6 +47,10 @@ export type Session = {
  */
 name: string, 
 /**
+ * How far each walking figure of a scene came, and whether it fell; nothing for recordings.
+ */
+outcome: Array<string>, 
+/**
  * Whether the data can be used; nothing for scenes.
  */
 data: DataQuality | null, 

@@ -32,10 +32,11 @@ export function header(page: Page): HTMLElement {
   return element("header", { class: "header" }, element("h1", {}, page.title), ...badges);
 }
 
-/** For each session: whether its data can be used, with the strongest reasons, whether a person could make the movement, and what to know first. */
+/** For each session: how far the figures of a scene came, whether its data can be used, with the strongest reasons, whether a person could make the movement, and what to know first. */
 function answers(page: Page): HTMLElement[] {
   return page.sessions.flatMap((session) => {
-    const lines = [...dataLines(session), ...verdictLines(session), ...glanceLines(session)];
+    const outcome = session.outcome.map((sentence) => element("p", { class: "answer" }, sentence));
+    const lines = [...outcome, ...dataLines(session), ...verdictLines(session), ...glanceLines(session)];
     const name = page.sessions.length > 1 ? [element("h3", { class: "answer-name" }, session.name)] : [];
     return lines.length > 0
       ? [element("section", { class: "answers", "aria-label": "Answers" }, ...name, ...lines)]

@@ -73,6 +73,7 @@ function sampleSession(numbers: SampleNumbers, walk: SampleWalk): Session {
   return {
     name: walk.name,
     data: null,
+    outcome: [],
     glance: null,
     header: [],
     source: "simulated",

@@ -141,6 +141,7 @@ function session(block: Block, variant: Variant): Session {
     data: variant.red
       ? { state: "doubtful", reasons: ["the residual force is 24 % of body weight (at most 20 %)"] }
       : { state: "good", reasons: [] },
+    outcome: [],
     glance: {
       facts: [
         { label: "Recording", value: variant.name, note: null },

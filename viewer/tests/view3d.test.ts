@@ -4,7 +4,7 @@ import { Color, type InstancedMesh, type Material, Matrix4, type Mesh, Quaternio
 import type { PageSide, View, ViewBody, ViewShape } from "../src/contract";
 import { arrowParts, arrowScale, dashParts } from "../src/view3d/arrow";
 import { directionOf, fittingDistance } from "../src/view3d/camera";
-import { extentOf } from "../src/view3d/extent";
+import { extentOf, Framing } from "../src/view3d/extent";
 import { Figure } from "../src/view3d/figure";
 import { peakOf } from "../src/view3d/forces";
 import { Motion } from "../src/view3d/motion";
@@ -250,6 +250,34 @@ test("the picture frames the person of a scene, not a ball far away", () => {
   // Without a person, all bodies count.
   const things = [{ ...ball, name: "stone", position: [constant(0), constant(1), constant(0)] } as ViewBody, ball];
   assert.ok(extent(things).along > 20 && extent(things).across > 10);
+});
+
+test("the picture widens while somebody lies, and is narrow while the same person walks", () => {
+  const numbers = new SampleNumbers();
+  const timeline = new Timeline({ start_s: 0, step_s: 0.02, frames: 401 });
+  const add = (value: (time: number) => number) =>
+    numbers.add(Array.from({ length: timeline.frames }, (_, frame) => value(0.02 * frame)));
+  const zero = add(() => 0);
+  // A stick from the pelvis up to the head and down to the feet, which falls forward between 4 s and 4.5 s.
+  const half = (time: number) => (Math.PI / 4) * Math.min(1, Math.max(0, 2 * (time - 4)));
+  const body: ViewBody = {
+    name: "bob/pelvis",
+    side: null,
+    shapes: [{ kind: "capsule", from: [0, -0.8, 0], to: [0, 0.8, 0], radius: 0.1 }],
+    position: [add((time) => Math.min(time, 4)), add((time) => (time < 4.5 ? 0.9 : 0.1)), zero],
+    rotation: [zero, zero, add((time) => -Math.sin(half(time))), add((time) => Math.cos(half(time)))],
+  };
+  const [session] = samplePage(numbers).sessions;
+  assert.ok(session?.view);
+  const view: View = { ...session.view, bodies: [body], floor_m: 0 };
+  const framing = new Framing(view, numbers, new Path(view, numbers, timeline), timeline);
+  const [walking, lying] = [framing.at(100), framing.at(390)];
+  assert.ok(walking.along < 0.35 && walking.top > 1.75, JSON.stringify(walking));
+  assert.ok(lying.along > 0.85 && lying.top < 0.5, JSON.stringify(lying));
+  // It changes gradually, and before the fall.
+  const widths = Array.from({ length: 401 }, (_, frame) => framing.at(frame).along);
+  assert.ok(widths.every((width, frame) => frame === 0 || Math.abs(width - (widths[frame - 1] as number)) < 0.03));
+  assert.ok((widths[195] as number) > 0.5);
 });
 
 test("walking on the spot has the direction of the pelvis", () => {

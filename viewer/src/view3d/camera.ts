@@ -46,7 +46,7 @@ export class CameraRig {
 
   constructor(
     canvas: HTMLCanvasElement,
-    private readonly extent: Extent,
+    private extent: Extent,
     private readonly heading: Vector3,
   ) {
     this.controls = new OrbitControls(this.camera, canvas);
@@ -67,13 +67,17 @@ export class CameraRig {
     this.fit();
   }
 
-  /** Follows the figure to a position on the floor. */
-  follow(place: Vector3): void {
+  /** Follows the figure to a position on the floor, and, until the reader turns or zooms, frames its extent there. */
+  follow(place: Vector3, extent: Extent): void {
+    this.extent = extent;
     const step = place.clone().sub(this.place);
     this.place.copy(place);
     this.camera.position.add(step);
     this.controls.target.add(step);
     this.controls.update();
+    if (!this.touched) {
+      this.fit();
+    }
   }
 
   resize(width: number, height: number): void {

@@ -83,7 +83,7 @@ class Picture implements View3D {
       this.stage.scene,
       this.world.parts.map((part) => part.group),
     );
-    this.rig = new CameraRig(this.canvas, this.world.room, this.world.path.heading);
+    this.rig = new CameraRig(this.canvas, this.world.room(clock.time), this.world.path.heading);
     this.attach(session.name);
     this.toggles = toggleBar(togglesOf(view, this.ghosts), this.options, (options) => this.setOptions(options));
     this.mixture = mixtureSlider(view, (options) => this.setOptions(options));
@@ -92,7 +92,7 @@ class Picture implements View3D {
     this.show(this.options);
     this.recolor();
     this.world.pose(clock.time, this.place);
-    this.rig.follow(this.place);
+    this.rig.follow(this.place, this.world.room(clock.time));
     this.measure();
     this.setCamera("side");
     this.endings = this.listeners();
@@ -145,7 +145,7 @@ class Picture implements View3D {
   private now(): CameraRig {
     this.measure();
     this.world.pose(this.clock.time, this.place);
-    this.rig.follow(this.place);
+    this.rig.follow(this.place, this.world.room(this.clock.time));
     this.stage.follow(this.place);
     this.world.clear(this.rig.camera.position, this.rig.controls.target);
     return this.rig;

@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import type { Page, Session, View } from "../contract";
 import { arrowScale } from "./arrow";
 import { Contacts } from "./contacts";
-import { type Extent, extentOf, union } from "./extent";
+import { type Extent, extentOf, Framing, union } from "./extent";
 import { Figure } from "./figure";
 import { Floor } from "./floor";
 import { Forces, peakOf } from "./forces";
@@ -23,6 +23,7 @@ import { Trail } from "./trail";
 export class World {
   readonly path: Path;
   private readonly extent: Extent;
+  private readonly framing: Framing;
   readonly ghosts: Ghost[];
   private readonly gait: Gait;
   private readonly figure: Figure;
@@ -46,6 +47,7 @@ export class World {
     const { timeline } = this.gait;
     this.path = new Path(view, numbers, timeline);
     this.extent = extentOf(view, numbers, this.path, timeline);
+    this.framing = new Framing(view, numbers, this.path, timeline);
     const height = this.height;
     const views = page.sessions.flatMap((one) => one.view ?? []);
     const weight_m = arrowScale(height, Math.max(...views.map((one) => peakOf(one, numbers))));
@@ -73,9 +75,10 @@ export class World {
     return [figure, floor, forces, torques, trail, contacts, muscles, ...this.ghosts, ...this.still];
   }
 
-  /** Extent of the figure with its ghosts. */
-  get room(): Extent {
-    return this.ghosts.reduce((room, ghost) => union(room, ghost.extentOn(this.view.floor_m)), this.extent);
+  /** Extent of the figure at a time [s], with its ghosts. */
+  room(time: number): Extent {
+    const own = this.framing.at(this.gait.timeline.frameAt(time));
+    return this.ghosts.reduce((room, ghost) => union(room, ghost.extentOn(this.view.floor_m)), own);
   }
 
   /** Height of the figure [m]. */

@@ -58,6 +58,8 @@ pub(crate) enum PageSide {
 pub struct Session {
     /// A short name: the name of the recording.
     pub name: String,
+    /// How far each walking figure of a scene came, and whether it fell; nothing for recordings.
+    pub(crate) outcome: Vec<String>,
     /// Whether the data can be used; nothing for scenes.
     pub(crate) data: Option<DataQuality>,
     /// Summary at the top of the page; nothing for scenes.

@@ -45,6 +45,7 @@ pub fn live_page(
     let viewed = drawn(stage, &mut block);
     let session = Session {
         name: model.name().to_owned(),
+        outcome: Vec::new(),
         data: None,
         glance: None,
         header: Vec::new(),

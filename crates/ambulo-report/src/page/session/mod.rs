@@ -82,6 +82,7 @@ fn recording(
     }
     Ok(Session {
         name: header::recording_name(&results),
+        outcome: Vec::new(),
         data: results.summary.quality.as_ref().map(|quality| data_quality(quality, &results.summary.ground)),
         glance: Some(glance::glance(&results, &size, &shown)),
         header: header::header(&results, &size),

@@ -5,6 +5,11 @@ use crate::page::session::header::{fact, file_name};
 use crate::page::session::plain_fact::{none_allowed, plain};
 use ambulo_results::{SceneSummary, WorldSummary};
 
+/// How far each walking figure came, and whether it fell.
+pub(super) fn outcome(summary: &SceneSummary) -> Vec<String> {
+    summary.walked.iter().map(|walked| format!("{} {}", walked.figure, walked.sentence())).collect()
+}
+
 /// Lines of the header.
 pub(super) fn header(summary: &SceneSummary) -> Vec<Fact> {
     let scene = file_name(&summary.input.scene);

@@ -36,6 +36,7 @@ pub(super) fn session(folder: &Folder<'_>, summary: &SceneSummary, block: &mut B
     }
     Ok(Session {
         name: folder.name.clone(),
+        outcome: facts::outcome(summary),
         data: None,
         glance: None,
         header: facts::header(summary),
