@@ -234,3 +234,18 @@ fn a_walk_that_hits_something_is_judged_infeasible_with_exit_code_1() {
     bench.run(&["simulate", "still.toml", "--duration", "0.1", "-o", "still"]).done();
     assert!(bench.json("still/summary.json")["verdict"].is_null());
 }
+
+#[test]
+fn a_fall_leaves_the_drawn_shapes_of_the_figure_as_they_are() {
+    let bench = Workbench::empty("simulate_fall");
+    let scene = String::from_utf8(example("pushed-walker.toml")).unwrap().replace("mass = 5\n", "mass = 60\n");
+    bench.write("fall.toml", scene);
+    let shapes = |folder: &str| {
+        let all = bench.json(&format!("{folder}/shapes.json"));
+        all["bodies"].as_array().unwrap().clone()
+    };
+    bench.run(&["simulate", "fall.toml", "--duration", "0.1", "-o", "short"]).done();
+    let run = bench.run(&["simulate", "fall.toml", "-o", "fallen"]).done();
+    assert!(run.stdout.contains("ann fell after "), "{}", run.stdout);
+    assert_eq!(shapes("short"), shapes("fallen"));
+}

@@ -88,6 +88,8 @@ pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> 
     if let Some(save) = &args.save {
         files::check_target(save, &inputs, args.replace.existing())?;
     }
+    // Before the run: a figure that falls gets further surfaces, which are the shapes that it already has.
+    let shapes = scene.outputs().poses.then(|| scene_shapes(&scene)).transpose()?;
     clock.lap("read");
 
     let (mut tables, mut extremes) = (SceneTables::new(&scene), SceneExtremes::default());
@@ -107,7 +109,8 @@ pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> 
     let verdict = scene_verdict(&scene, &Thresholds::default(), &mut findings)?;
     clock.lap("feasibility");
 
-    let written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
+    let mut written = scene_files(&scene, tables, curves.as_ref(), verdict.as_ref())?;
+    written.extend(shapes);
     clock.lap("tables");
     let mut summary = extremes.summary(&scene, &statistics, input, &findings);
     summary.walked = scene_walked(&scene)?;
@@ -116,7 +119,7 @@ pub(crate) fn compute(args: &SimulateArgs, caller: &Caller) -> Result<SceneRun> 
     Ok(SceneRun { written, summary, state, keep, inputs, caller, options, clock })
 }
 
-/// Tables, shapes and figures.
+/// Tables and figures.
 fn scene_files(
     scene: &Scene,
     tables: SceneTables,
@@ -124,9 +127,6 @@ fn scene_files(
     verdict: Option<&SceneVerdict>,
 ) -> Result<Vec<OutputFile<'static>>> {
     let mut written = tables.files(scene)?;
-    if scene.outputs().poses {
-        written.push(scene_shapes(scene)?);
-    }
     if let Some(curves) = curves {
         written.extend(curves.files(scene, verdict)?);
     }
