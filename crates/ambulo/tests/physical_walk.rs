@@ -4,11 +4,12 @@
 use crate::scene_walkers::{example, scene, verdict};
 use ambulo::analysis::feasibility::VerdictState;
 use ambulo::contact::Shape;
+use ambulo::figure_shape::{BodySolid, FigureShape};
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Speed, Walk};
-use ambulo::model::Movement;
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
+use ambulo::model::{Model, Movement};
 use ambulo::optimal::{ECCENTRIC, OptimalWalk, Solution, StandingMovements, StrengthCurve, soles_with_width};
 use ambulo::simulation::consistent_walk::{ConsistentWalk, ConsistentWalkSettings, make_consistent_walk};
 use ambulo::simulation::control::{
@@ -501,13 +502,63 @@ fn a_fall_in_a_scene_is_told_with_its_time_and_cause() {
     let seconds = scene.state().time_s;
     let fell_s: f64 = told[0].split(' ').nth(3).unwrap().parse().unwrap();
     assert!((seconds - fell_s - 2.0).abs() < 0.02, "the run ended at {seconds} s");
-    // She lies on the floor, and her joints are within their ranges.
+    // She lies on the floor by her whole body, and her joints are within their ranges.
+    let human = Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true }.human().unwrap();
+    let pose = |name: &str| {
+        let number = scene.world().bodies.iter().position(|body| body.name == format!("ann/{name}")).unwrap();
+        scene.state().poses[number]
+    };
+    let (deepest, highest) = heights_of_the_body(&human.model, pose);
+    println!("{:.1} to {:.1} mm", 1e3 * deepest, 1e3 * highest);
+    assert!(deepest > -0.02 && deepest < 0.0 && highest < 0.65, "{deepest} {highest}");
     for (body, pose) in scene.world().bodies.iter().zip(&scene.state().poses) {
         assert!(pose.translation.y > 0.0 && pose.translation.y < 0.7, "{}: {}", body.name, pose.translation.y);
     }
     let knee = scene.world().joints.iter().position(|joint| joint.name.contains("knee_angle_r")).unwrap();
     let knee = scene.state().coordinates[knee][0].to_degrees();
-    assert!((-150.0..5.0).contains(&knee), "{knee}");
+    // Her thighs lie on the kerb, so the knee is straight, at the end of its range of 10 degrees.
+    assert!((-150.0..10.1).contains(&knee), "{knee}");
+}
+
+/// Lowest and highest point of the solids of a body [m]; `pose` has the place of the mass centre of a body.
+fn heights_of_the_body(model: &Model, pose: impl Fn(&str) -> Pose) -> (f64, f64) {
+    let solids = FigureShape::new(model, None, [0.0; 2]).solids;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (body, solids) in model.bodies().iter().zip(solids) {
+        let frame = pose(&body.name) * Pose::at(-body.inertia.center());
+        for solid in solids {
+            let BodySolid::Capsule { from, to, radius } = solid else { continue };
+            let heights = [from, to].map(|end| frame.place(end).y);
+            low = low.min(heights[0].min(heights[1]) - radius);
+            high = high.max(heights[0].max(heights[1]) + radius);
+        }
+    }
+    (low, high)
+}
+
+#[test]
+fn whoever_falls_without_a_scene_lies_on_the_ground_too() {
+    let case = &*LEVEL;
+    for force in [-900.0, 900.0] {
+        let mut walk = case.pushed(force, 2.3);
+        walk.walk_until(8.0).unwrap();
+        let fall = walk.fall().unwrap();
+        let mut deepest = f64::INFINITY;
+        let model = &case.human.model;
+        let now = |walk: &mut PhysicalWalk| {
+            let poses = walk.poses().to_vec();
+            heights_of_the_body(model, |name| poses[model.body(name).unwrap().index()])
+        };
+        while walk.time_s() < fall.time_s + 3.0 {
+            walk.step().unwrap();
+            if walk.time_s() > fall.time_s + 0.5 {
+                deepest = deepest.min(now(&mut walk).0);
+            }
+        }
+        let (end, highest) = now(&mut walk);
+        println!("{force} N: {:.1} mm, at the end {:.1} to {:.1} mm", 1e3 * deepest, 1e3 * end, 1e3 * highest);
+        assert!(deepest > -0.06 && end > -0.02 && end < 0.0 && highest < 0.65, "{force} N: {deepest} {end} {highest}");
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::contact::HuntCrossley;
 use crate::dynamics::{Convergence, LinkError};
 use crate::engine::figure_tree::{FigurePlace, FigureTree};
 use crate::engine::soles::{add_level_ground, add_soles};
-use crate::engine::{Motor, StepSettings, StepWorkspace, World, WorldState, step};
+use crate::engine::{ContactLaw, Material, Motor, StepSettings, StepWorkspace, World, WorldState, step};
 use crate::findings::Findings;
 use crate::kinematics::Posture;
 use crate::model::Side;
@@ -66,6 +66,18 @@ impl FigureWorld {
         if let Some((joint, k)) = self.tree.places[coordinate].joint(&self.joint_of) {
             self.world.joints[joint].coordinates[k].motor = Some(motor);
         }
+    }
+
+    /// The figure has fallen and lies on the ground by its body; `now` has value and rate of each coordinate.
+    pub(super) fn lie_down(&mut self, now: &[[f64; 2]]) {
+        // Soft shoes would push out what is already below the ground with thousands of newtons: the ground is rigid
+        // from now on, and the body has its own softness. The shoes keep theirs.
+        let ground = self.sides.len() - 1;
+        let friction = self.world.materials[self.world.surfaces[ground].material].friction;
+        self.world.surfaces[ground].material = self.world.materials.len();
+        self.world.materials.push(Material { friction, restitution: 0.0, law: ContactLaw::Rigid });
+        // The solids of a figure have a size.
+        let _lies = self.tree.lie_down(&mut self.world, now);
     }
 
     /// Makes one step.

@@ -19,6 +19,8 @@ const DIFFERENCES: [f64; 3] = [1e-6, 1e-5, 1e-2];
 /// Muscles need clearly more than they have from this share of their strength on. Push-off takes the ankle to its
 /// strength in every step.
 const OVERLOAD: f64 = 1.2;
+/// Damping of a figure that has fallen, over its damping while it walks.
+const LIMP: f64 = 0.25;
 
 /// Stiffness, damping and strength of the motor of a coordinate; no motor where the stiffness is zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +44,11 @@ impl Impedance {
         self.available([q, 0.0], sign)
     }
 
-    /// A motor that only damps, of a figure that has fallen.
+    /// A motor that only damps, of a figure that has fallen: with the whole damping its limbs would sink so slowly
+    /// that they seem to stand.
     pub(super) fn limp(&self, [q, _]: [f64; 2]) -> Motor {
         let max = [1.0, -1.0].map(|sign| self.isometric(q, sign)).into_iter().fold(f64::INFINITY, f64::min);
-        Motor { target: Signal::Constant(0.0), kp: 0.0, kd: self.damping, max }
+        Motor { target: Signal::Constant(0.0), kp: 0.0, kd: LIMP * self.damping, max }
     }
 
     /// Whether a motor would need clearly more than its muscles have in a state.

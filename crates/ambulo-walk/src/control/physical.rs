@@ -10,6 +10,7 @@ use crate::engine::{StepSettings, World};
 use crate::findings::Findings;
 use crate::model::anthropometry::Human;
 use crate::optimal::Solution;
+use crate::spatial::Pose;
 use crate::walking::WalkingError;
 
 /// A figure that walks by its own torques.
@@ -89,6 +90,13 @@ impl PhysicalWalk {
         self.figure.read()
     }
 
+    /// Poses of the bodies, in the order of the model; their origins are the mass centres [m].
+    #[must_use]
+    pub fn poses(&self) -> &[Pose] {
+        let bodies = self.figure.tree.model.bodies().len();
+        &self.figure.state.poses[self.figure.tree.first_body..self.figure.tree.first_body + bodies]
+    }
+
     /// Generalised force of each coordinate in the last step [N.m or N]; the root's are zero.
     #[must_use]
     pub fn efforts(&self) -> Vec<f64> {
@@ -113,10 +121,14 @@ impl PhysicalWalk {
     /// Joints that do not form trees.
     pub fn step(&mut self) -> Result<Convergence, WalkingError> {
         let (now, loads) = (self.figure.read(), self.figure.loads());
+        let stood = self.fall().is_none();
         for (c, motor) in self.controller.act(&now, loads).into_iter().enumerate() {
             if let Some(motor) = motor {
                 self.figure.drive(c, motor);
             }
+        }
+        if stood && self.fall().is_some() {
+            self.figure.lie_down(&now);
         }
         Ok(self.figure.step(&mut self.findings)?)
     }

@@ -17,8 +17,6 @@ use crate::walking::{FootRecord, GaitTargets, WalkRecording};
 /// A contact belongs to the ground if the vertical component of its normal is at least this: less than 45° from the
 /// vertical.
 const GROUND: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Radius of the spheres by which a fallen figure lies on the ground [m].
-const BODY_RADIUS_M: f64 = 0.08;
 /// Largest number of recorded steps.
 const MOST_ROWS: usize = 1_000_000;
 
@@ -149,10 +147,8 @@ impl FigureRecorder {
             }
         }
         if stood && controller.fall().is_some() {
-            self.tree.stop_at_ranges(world, &self.before);
-            let material = self.soles.first().map_or(0, |(sole, _)| world.surfaces[*sole].material);
-            // The radius is valid.
-            let _touches = self.tree.touch_ground(world, BODY_RADIUS_M, material);
+            // The solids of a figure have a size.
+            let _lies = self.tree.lie_down(world, &self.before);
         }
     }
 

@@ -8,8 +8,7 @@
 use super::check::WorldError;
 use super::joint::JointKind;
 use super::state::rates;
-use super::{Owner, RigidBody, Surface, TreeJoint, World, WorldState};
-use crate::contact::{Shape, ShapeError};
+use super::{RigidBody, TreeJoint, World, WorldState};
 use crate::kinematics::{BodyMotion, Posture, angles_zxy, body_motion};
 use crate::model::{BodyId, CoordinateId, Displacement, JointAxis, JointSpeeds, Model};
 use crate::numerics::elementary::{atan2, sin_cos};
@@ -30,7 +29,7 @@ pub(crate) enum FigurePlace {
 /// The bodies and joints of a figure in a world.
 #[derive(Debug, Clone)]
 pub(crate) struct FigureTree {
-    pub(super) model: Model,
+    pub(crate) model: Model,
     /// Index of its first body in the world; the others follow in the order of the model, then the links.
     pub(crate) first_body: usize,
     /// Number of its bodies, with the links.
@@ -116,34 +115,6 @@ impl FigureTree {
             }
         };
         self.places.iter().map(of).collect()
-    }
-
-    /// Joints turn no further than their ranges, or than now if they are beyond them.
-    pub(crate) fn stop_at_ranges(&self, world: &mut World, now: &[[f64; 2]]) {
-        let joint_of = world.joint_of_body();
-        for ((place, coordinate), [value, _]) in self.places.iter().zip(self.model.coordinates()).zip(now) {
-            if let (Some((joint, k)), Some([low, high])) = (place.joint(&joint_of), coordinate.range) {
-                world.joints[joint].coordinates[k].limits = (Some(low.min(*value)), Some(high.max(*value)));
-            }
-        }
-    }
-
-    /// Every body touches the ground from now on, by a sphere of some radius [m] about its mass centre; bodies of the
-    /// figure pass through each other.
-    pub(crate) fn touch_ground(&self, world: &mut World, radius_m: f64, material: usize) -> Result<(), ShapeError> {
-        let own = self.first_body..self.first_body + self.model.bodies().len();
-        for body in own.clone() {
-            world.surfaces.push(Surface {
-                owner: Owner::Body(body),
-                shape: Shape::sphere(radius_m)?,
-                owner_from_shape: Pose::IDENTITY,
-                material,
-            });
-            world.ignored.extend((body + 1..own.end).map(|other| (Owner::Body(body), Owner::Body(other))));
-        }
-        world.ignored.sort_unstable();
-        world.ignored.dedup();
-        Ok(())
     }
 
     /// Value and rate of the angles and distances of a free root: R = R_z R_x R_y, and ω = e_z ȧ + R_z e_x ḃ + R_z R_x

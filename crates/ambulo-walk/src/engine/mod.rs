@@ -53,6 +53,7 @@
 
 mod check;
 pub(crate) mod energy;
+mod fallen;
 pub(crate) mod figure_tree;
 pub(crate) mod joint;
 mod midpoint;

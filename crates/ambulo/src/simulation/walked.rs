@@ -27,8 +27,8 @@ use std::collections::BTreeMap;
 const FALLEN: f64 = 0.7;
 /// Shortest time without a load before a step [s].
 const SWING_S: f64 = 0.1;
-/// A joint centre this close to the ground touches it [m].
-const NEAR_M: f64 = 0.08;
+/// A joint centre this close to the ground touches it [m]: hips have 0.09 m of flesh around them.
+const NEAR_M: f64 = 0.1;
 /// Parts are watched from so long before the fall on [s].
 const BEFORE_S: f64 = 0.5;
 
