@@ -456,3 +456,33 @@ fn the_verdict_judges_a_weak_joint_with_the_strength_that_it_has_left() {
     let limit = closest["limit"].as_f64().unwrap().abs();
     assert!((150.0..190.0).contains(&limit), "{limit} N.m");
 }
+
+/// The moments without the device lack the moment of the springs at each angle; a spring gives back the work that it
+/// takes, and terminal and summary say what springs and body did.
+#[test]
+fn a_walk_with_springs_says_what_they_and_the_body_did() {
+    const STIFFNESS: f64 = 60.0;
+    const REST_DEG: f64 = 5.0;
+    let bench = Workbench::empty("walk_device");
+    bench.write("exo.toml", format!("[[device]]\njoint = \"ankle\"\nstiffness = {STIFFNESS}\nrest_deg = {REST_DEG}\n"));
+    let run = bench.run(&["walk", "--device", "exo.toml", "--cycles", "1", "-o", "out"]);
+    assert!(run.code == Some(0) && run.stdout.contains("ankle_angle_r: the device does"), "{}", run.stdout);
+    let [angles, whole, body] = ["kinematics.mot", "moments.sto", "moments_biological.sto"].map(|name| {
+        let table = bench.table(&format!("out/{name}"));
+        move |column: &str| table.column(column).unwrap().to_vec()
+    });
+    for side in ["r", "l"] {
+        let moment = format!("ankle_angle_{side}_moment");
+        let frames = angles(&format!("ankle_angle_{side}")).into_iter().zip(whole(&moment)).zip(body(&moment));
+        for ((angle_deg, whole), body) in frames {
+            let spring = -STIFFNESS * (angle_deg - REST_DEG).to_radians();
+            assert!((whole - body - spring).abs() < 1e-3, "{whole} {body} {spring}");
+        }
+    }
+    assert_eq!(whole("knee_angle_r_moment"), body("knee_angle_r_moment"));
+    let work = &bench.json("out/summary.json")["walk"]["prediction"]["device_work"][0];
+    let of = |who: &str| [0, 1].map(|k| work[who][k].as_f64().unwrap());
+    let ([given, taken], [done, braked]) = (of("device_j_kg"), of("body_j_kg"));
+    assert!(given > 0.01 && (given + taken).abs() < 0.01 * given, "{given} {taken}");
+    assert!(done > 0.05 && braked < 0.0, "{done} {braked}");
+}

@@ -1,6 +1,7 @@
 //! The part of `summary.json` for synthetic walks.
 
 use ambulo::model::Model;
+use ambulo::optimal::DeviceEffort;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::{CorrectionReport, PaceReached, PredictionReport, Progress, WalkReport};
 use serde::{Deserialize, Serialize};
@@ -85,8 +86,12 @@ pub struct WalkPredictionSummary {
     pub load_place: Option<String>,
     /// Shares of strength that are left, by coordinate; joints with all their strength are not listed.
     pub strength: BTreeMap<String, f64>,
-    /// Coordinates with devices, whose moments are parts of the joint moments.
+    /// Coordinates with devices, whose moments are parts of the joint moments; `moments_biological.sto` is without
+    /// them.
     pub devices: Vec<String>,
+    /// Work of devices and body at these joints.
+    #[serde(default)]
+    pub device_work: Vec<DeviceWorkSummary>,
     /// Asked distance between the paths of both feet [m].
     pub step_width_m: Option<f64>,
     /// Cadence of people at this speed [steps/min], where the walk chose its own; `null` where it has theirs.
@@ -100,7 +105,7 @@ pub struct WalkPredictionSummary {
 }
 
 impl WalkPredictionSummary {
-    fn new(report: &PredictionReport, speed: f64) -> WalkPredictionSummary {
+    fn new(report: &PredictionReport, model: &Model, speed: f64) -> WalkPredictionSummary {
         let conditions = &report.conditions;
         WalkPredictionSummary {
             slope_percent: 100.0 * conditions.slope,
@@ -109,6 +114,7 @@ impl WalkPredictionSummary {
             strength: conditions.strengths.iter().cloned().collect(),
             devices: conditions.devices.iter().map(|device| device.coordinate.clone()).collect(),
             step_width_m: conditions.step_width_m,
+            device_work: report.devices.iter().map(|effort| DeviceWorkSummary::new(effort, model)).collect(),
             usual_cadence_steps_min: report.usual_cadence,
             metabolic_power_w_kg: report.metabolic_power,
             cost_of_transport_j_kg_m: report.metabolic_power / speed,
@@ -139,6 +145,39 @@ impl WalkPredictionSummary {
             }),
         ];
         parts.into_iter().flatten().collect()
+    }
+}
+
+/// Work of devices and body at a joint in a cycle, per kilogram of the body without load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct DeviceWorkSummary {
+    /// Coordinate of the joint.
+    pub coordinate: String,
+    /// Positive and negative work of the devices [J/kg].
+    pub device_j_kg: [f64; 2],
+    /// Positive and negative work of the rest of the joint moment, that of muscles and tissue [J/kg].
+    pub body_j_kg: [f64; 2],
+}
+
+impl DeviceWorkSummary {
+    fn new(effort: &DeviceEffort, model: &Model) -> DeviceWorkSummary {
+        DeviceWorkSummary {
+            coordinate: model.coordinates()[effort.coordinate.index()].name.clone(),
+            device_j_kg: effort.device_work,
+            body_j_kg: effort.body_work,
+        }
+    }
+
+    /// The work in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [[device, device_taken], [body, body_taken]] = [self.device_j_kg, self.body_j_kg];
+        format!(
+            "{}: the device does {device:.3} and takes {:.3} J/kg in a cycle, muscles and tissue do {body:.3} and take \
+             {:.3}",
+            self.coordinate, -device_taken, -body_taken
+        )
     }
 }
 
@@ -216,7 +255,7 @@ impl WalkSummary {
             lacking_force_n: correction.map(|c| c.residual[0]),
             lacking_moment_nm: correction.map(|c| c.residual[1]),
             solver: correction.map(|c| c.progress.clone()),
-            prediction: report.prediction.as_ref().map(|made| WalkPredictionSummary::new(made, report.speed)),
+            prediction: report.prediction.as_ref().map(|made| WalkPredictionSummary::new(made, model, report.speed)),
             trunk_torque_nm: report.trunk_torque,
             trunk_torque_nm_kg: report.trunk_torque.times(1.0 / model.mass()),
             foot_slip_mm: report.slip.map(|slip| 1e3 * slip.excursion),

@@ -9,6 +9,7 @@ use crate::request::WrongFields;
 use crate::{Completion, files, printer};
 use ambulo::analysis::feasibility::{Person, Thresholds};
 use ambulo::findings::Findings;
+use ambulo::formats::table::Table;
 use ambulo::gait::machine::StateChange;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, BuildError, SegmentTable, UnknownTable};
@@ -270,7 +271,17 @@ pub(super) fn source(walk: &SyntheticWalk, mode: SyntheticMode) -> Source {
         loads: loads.clone(),
         rule: rule(mode),
     };
-    Source::new(Recording::Complete(Box::new(made)))
+    Source { device: device(walk), ..Source::new(Recording::Complete(Box::new(made))) }
+}
+
+/// The moments of the devices of a walk as the table that a recording with a worn device has.
+fn device(walk: &SyntheticWalk) -> Option<Table> {
+    let prediction = walk.report.prediction.as_ref()?;
+    let names = walk.human.model.force_names();
+    let moments = prediction.devices.iter().zip(&prediction.device_moments);
+    let mut columns = vec![("time".to_owned(), walk.trajectory.grid().times())];
+    columns.extend(moments.map(|(effort, moments)| (names[effort.coordinate.index()].clone(), moments.clone())));
+    if columns.len() > 1 { Table::new("device", columns).ok() } else { None }
 }
 
 /// The picture of a gait.

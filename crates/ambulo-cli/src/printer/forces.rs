@@ -93,6 +93,7 @@ fn outline(summary: &Summary) -> Result<()> {
         let cost = format!("{:.1} J/kg/m", made.cost_of_transport_j_kg_m);
         let parts = made.conditions().into_iter().chain([format!("cost of transport {cost}")]);
         print_line(&format!("  walk      {}", parts.collect::<Vec<_>>().join(", ")))?;
+        made.device_work.iter().try_for_each(|work| print_line(&format!("  device    {}", work.words())))?;
     }
     let [from, to] = summary.window_s;
     let Summary { frames, rate_hz, ground, .. } = summary;

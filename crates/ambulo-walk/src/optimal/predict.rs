@@ -141,6 +141,65 @@ impl MuscleTerms<'_> {
     }
 }
 
+/// What devices do at a joint, and what the body does there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeviceEffort {
+    /// The coordinate of the joint.
+    pub coordinate: CoordinateId,
+    /// Positive and negative work of the devices in a cycle [J/kg of the body without load].
+    pub device_work: [f64; 2],
+    /// The same of the rest of the joint moment, that of muscles and tissue.
+    pub body_work: [f64; 2],
+}
+
+impl DeviceEffort {
+    /// The work of the devices of a solved walk, and of the body at their joints, for a body of some mass [kg].
+    ///
+    /// # Errors
+    /// Does not fail for a solved problem.
+    pub fn of(
+        solution: &Solution,
+        walk: &Walk,
+        body_mass: f64,
+        devices: &[Device],
+    ) -> Result<Vec<DeviceEffort>, CurvedJointError> {
+        let step_s = walk.cycle_s() / POWER_INSTANTS as f64;
+        let times: Vec<f64> = (0..POWER_INSTANTS).map(|k| step_s * k as f64).collect();
+        let (samples, model) = (solution.samples(&times)?, &solution.problem().model);
+        let of = |id: CoordinateId| {
+            let mut effort = DeviceEffort { coordinate: id, device_work: [0.0; 2], body_work: [0.0; 2] };
+            for sample in &samples {
+                let (angle, rate) = (sample.posture[0][id.index()], sample.posture[1][id.index()]);
+                let given =
+                    moment_at(&model.coordinates()[id.index()].name, devices, sample.time_s, walk, [angle, rate]);
+                let parts = [given, sample.forces[id.index()] - given];
+                for (work, moment) in [&mut effort.device_work, &mut effort.body_work].into_iter().zip(parts) {
+                    work[usize::from(moment * rate < 0.0)] += moment * rate * step_s / body_mass;
+                }
+            }
+            effort
+        };
+        let is_worn = |id: &CoordinateId| {
+            let name = &model.coordinates()[id.index()].name;
+            devices.iter().any(|device| device.coordinate == *name)
+        };
+        Ok(model.coordinate_ids().filter(is_worn).map(of).collect())
+    }
+}
+
+/// Moment of all devices at a coordinate at a time of a walk [N.m], at its angle [rad] and rate [rad/s].
+pub(crate) fn moment_at(
+    coordinate: &str,
+    devices: &[Device],
+    time_s: f64,
+    walk: &Walk,
+    [angle, rate]: [f64; 2],
+) -> f64 {
+    let share = time_s / walk.cycle_s() + ahead_of(coordinate);
+    let own = devices.iter().filter(|device| device.coordinate == coordinate);
+    own.map(|device| device.moment(share, angle, rate)).sum()
+}
+
 /// Metabolic power that does not depend on the motion [W/kg]; measured in standing (Ralston 1958; unverified).
 const RESTING: f64 = 1.4;
 /// Instants of a cycle at which power is computed.
@@ -166,9 +225,7 @@ pub fn metabolic_power(
         for id in model.coordinate_ids().filter(|id| !root.contains(id)) {
             let name = &model.coordinates()[id.index()].name;
             let (angle, rate) = (sample.posture[0][id.index()], sample.posture[1][id.index()]);
-            let share = sample.time_s / walk.cycle_s() + ahead_of(name);
-            let assisted = devices.iter().filter(|device| device.coordinate == *name);
-            let moment = sample.forces[id.index()] - assisted.map(|d| d.moment(share, angle, rate)).sum::<f64>();
+            let moment = sample.forces[id.index()] - moment_at(name, devices, sample.time_s, walk, [angle, rate]);
             let power = moment * rate;
             sum += if power > 0.0 { WORK_PRICES[0] * power } else { -WORK_PRICES[1] * power };
         }

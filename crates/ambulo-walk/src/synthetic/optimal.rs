@@ -11,7 +11,9 @@ use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
-use crate::optimal::{OptimalWalk, OptimalWalkError, Sample, Solution, WalkConditions, metabolic_power};
+use crate::optimal::{
+    Device, DeviceEffort, OptimalWalk, OptimalWalkError, Sample, Solution, WalkConditions, metabolic_power, moment_at,
+};
 use crate::spatial::Vec3;
 use crate::walking::{FootRecord, loads, worst_slip};
 
@@ -56,9 +58,25 @@ fn reported(
     let conditions = found.conditions.clone();
     let (mass, devices) = (settings.build.mass, &conditions.devices);
     let metabolic_power = metabolic_power(&found.solution, &walk, mass, devices).map_err(OptimalWalkError::from)?;
+    let devices = DeviceEffort::of(&found.solution, &walk, mass, devices).map_err(OptimalWalkError::from)?;
     let mut predicted = made(settings, walk, &kept, found)?;
-    predicted.report.prediction = Some(PredictionReport { conditions, metabolic_power, usual_cadence });
+    let start_s = kept.first as f64 * settings.step_s();
+    let moments = |effort: &DeviceEffort| device_moments(&predicted, effort.coordinate, &conditions.devices, start_s);
+    let device_moments = devices.iter().map(moments).collect();
+    predicted.report.prediction =
+        Some(PredictionReport { conditions, metabolic_power, usual_cadence, devices, device_moments });
     Ok(predicted)
+}
+
+/// Moment of the devices at a joint in all frames of a walk that begins at a time of its solution [N.m].
+fn device_moments(made: &SyntheticWalk, id: CoordinateId, devices: &[Device], start_s: f64) -> Vec<f64> {
+    let name = &made.human.model.coordinates()[id.index()].name;
+    let states = made.trajectory.values(id).iter().zip(made.trajectory.rates(id));
+    let times = made.trajectory.grid().times();
+    let moment = |(time_s, (angle, rate)): (f64, (&f64, &f64))| {
+        moment_at(name, devices, start_s + time_s, &made.walk, [*angle, *rate])
+    };
+    times.into_iter().zip(states).map(moment).collect()
 }
 
 /// The walk to be found, and the part of it that is kept.

@@ -8,7 +8,7 @@ use crate::gait::{Gait, PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
-use crate::optimal::WalkConditions;
+use crate::optimal::{DeviceEffort, WalkConditions};
 use crate::walking::{ExcerptRows, StanceSlip, TorqueSeries, WalkRecording};
 use std::ops::Range;
 
@@ -89,6 +89,10 @@ pub struct PredictionReport {
     pub metabolic_power: f64,
     /// Cadence of people at this speed [steps/min] where the walk chose its own; `None` where it has theirs.
     pub usual_cadence: Option<f64>,
+    /// What devices and body do at joints with devices.
+    pub devices: Vec<DeviceEffort>,
+    /// Moment of the devices at each of these joints [N.m], one entry per frame.
+    pub device_moments: Vec<Vec<f64>>,
 }
 
 /// A change of pace and what it leads to.

@@ -93,7 +93,8 @@ fn conditions(results: &Results) -> Option<Fact> {
     );
     let sloped = made.slope_percent.abs() > 0.0;
     let axes = if sloped { "; all curves and the 3-D view are in axes of the slope, so it looks level" } else { "" };
-    Some(fact("Conditions", conditions, Some(format!("{cost}{axes}"))))
+    let devices: String = made.device_work.iter().map(|work| format!("; {}", work.words())).collect();
+    Some(fact("Conditions", conditions, Some(format!("{cost}{devices}{axes}"))))
 }
 
 fn subject(results: &Results) -> Fact {
