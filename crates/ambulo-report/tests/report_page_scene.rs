@@ -121,12 +121,12 @@ fn the_page_begins_with_how_far_each_figure_walked_and_whether_it_fell() {
     assert_eq!(Shown::of(&files).session()["outcome"], json!([]));
     let mut summary: Value = serde_json::from_slice(&files["summary.json"]).unwrap();
     let walked = |figure: &str, fell_at_s: Value, first: Value| {
-        json!({"figure": figure, "steps": 5, "distance_m": 3.14,
+        json!({"figure": figure, "steps": 5, "distance_m": 3.27,
         "fell_at_s": fell_at_s, "first_part": first})
     };
     summary["walked"] = json!([walked("ann", Value::Null, Value::Null), walked("bob", json!(3.2), json!("hip"))]);
     files.insert("summary.json".to_owned(), summary.to_string().into_bytes());
-    let sentences = json!(["ann walked 5 steps, 3.1 m", "bob fell after 5 steps at 3.20 s, hip first"]);
+    let sentences = json!(["ann walked 5 steps, 3.3 m", "bob fell after 5 steps at 3.20 s, hip first"]);
     assert_eq!(Shown::of(&files).session()["outcome"], sentences);
 }
 

@@ -40,6 +40,13 @@ fn start(span: Span) -> Start {
 static MIRRORED: LazyLock<Start> = LazyLock::new(|| start(Span::MirroredHalfCycle));
 static LEVEL: LazyLock<Predicted> = LazyLock::new(|| MIRRORED.predict(&WalkConditions::default()));
 
+/// The predicted walk in three dimensions.
+static SPATIAL: LazyLock<(Walk, OptimalWalk)> = LazyLock::new(|| {
+    let walk = walk_of(&ambulo::model::full_body::full_body(&MAN).unwrap());
+    let found = OptimalWalk::predict(&MAN, &walk, &WalkConditions::default()).unwrap();
+    (walk, found)
+});
+
 struct Predicted {
     human: Human,
     solution: Solution,
@@ -102,10 +109,9 @@ fn a_prediction_keeps_both_limits_of_a_joint_and_has_its_own_cost_of_slip() {
 
 #[test]
 fn a_walk_of_lazy_muscles_is_that_of_people() {
-    let walk = walk_of(&ambulo::model::full_body::full_body(&MAN).unwrap());
-    let found = OptimalWalk::predict(&MAN, &walk, &WalkConditions::default()).unwrap();
+    let (walk, found) = &*SPATIAL;
     let times: Vec<f64> = (0..100).map(|k| walk.cycle_s() * f64::from(k) / 100.0).collect();
-    let people = OptimalWalk::find(&MAN, &walk).unwrap().problem;
+    let people = OptimalWalk::find(&MAN, walk).unwrap().problem;
     let people = people.problem.at(&people.guess).unwrap().samples(&times).unwrap();
     let samples = found.solution.samples(&times).unwrap();
     let laws = JointMomentLaws::built_in().unwrap();
@@ -242,25 +248,29 @@ fn a_weak_leg_does_less_than_the_other() {
 #[test]
 fn weak_ankles_push_less_and_hips_work_more() {
     const SHARE: f64 = 0.5;
+    let (walk, level) = &*SPATIAL;
     let strengths = ["ankle_angle_r", "ankle_angle_l"].map(|name| (name.to_owned(), SHARE)).to_vec();
-    let weak = MIRRORED.predict(&WalkConditions { strengths, ..WalkConditions::default() });
-    let work = |of: &Predicted, movement: Movement| {
-        let (id, _) = of.human.model.anatomy().coordinate(movement, Some(Side::Right)).unwrap();
-        let power = of.over_cycle(|s| (s.forces[id.index()] * s.posture[1][id.index()]).max(0.0));
-        power.iter().sum::<f64>() / 100.0 * MIRRORED.walk.cycle_s()
+    let conditions = WalkConditions { strengths, ..WalkConditions::default() };
+    let weak = OptimalWalk::predict(&MAN, walk, &conditions).unwrap();
+    let times: Vec<f64> = (0..200).map(|k| walk.cycle_s() * f64::from(k) / 200.0).collect();
+    let joint = |movement: Movement| weak.human.model.anatomy().coordinate(movement, Some(Side::Right)).unwrap();
+    let work = |of: &OptimalWalk, movement: Movement| {
+        let c = joint(movement).0.index();
+        let samples = of.solution.samples(&times).unwrap();
+        samples.iter().map(|s| (s.forces[c] * s.posture[1][c]).max(0.0)).sum::<f64>() * walk.cycle_s() / 200.0
     };
     for (movement, is_more) in [(Movement::AnkleDorsiflexion, false), (Movement::HipFlexion, true)] {
-        let [with, without] = [work(&weak, movement), work(&LEVEL, movement)];
+        let [with, without] = [work(&weak, movement), work(level, movement)];
         println!("{movement:?}: {with:.1} J with half the strength, {without:.1} J without");
         assert!(if is_more { with > 1.03 * without } else { with < 0.9 * without }, "{with} and {without}");
     }
-    let (id, sign) = weak.human.model.anatomy().coordinate(Movement::AnkleDorsiflexion, Some(Side::Right)).unwrap();
+    let (id, sign) = joint(Movement::AnkleDorsiflexion);
     let curve = StrengthCurve::built_in(Movement::AnkleDorsiflexion, MAN.mass, MAN.height).unwrap();
-    let shares = weak.over_cycle(|s| {
-        let [angle, rate, moment] = [s.posture[0][id.index()], s.posture[1][id.index()], s.forces[id.index()]];
-        moment.abs() / (SHARE * curve.available(sign * angle, sign * rate, sign * moment, ECCENTRIC))
-    });
-    let most = shares.into_iter().fold(0.0, f64::max);
+    let share = |s: &ambulo::optimal::Sample| {
+        let [angle, rate, moment] = [&s.posture[0], &s.posture[1], &s.forces].map(|values| sign * values[id.index()]);
+        moment.abs() / (SHARE * curve.available(angle, rate, moment, ECCENTRIC))
+    };
+    let most = weak.solution.samples(&times).unwrap().iter().map(share).fold(0.0, f64::max);
     println!("at most {:.0} % of the strength that is left", 100.0 * most);
     assert!((0.8..1.1).contains(&most), "{most}");
 }
@@ -268,16 +278,15 @@ fn weak_ankles_push_less_and_hips_work_more() {
 /// The cadence of the least cost is near that of people (109.8 steps/min at this speed), and it costs no more.
 #[test]
 fn a_free_cadence_is_near_that_of_people_and_costs_no_more() {
-    let walk = walk_of(&ambulo::model::full_body::full_body(&MAN).unwrap());
+    let (walk, usual) = &*SPATIAL;
     let conditions = WalkConditions { free_cadence: true, ..WalkConditions::default() };
-    let (free, own) = OptimalWalk::predict_freely(&MAN, &walk, &conditions).unwrap();
-    let usual = OptimalWalk::predict(&MAN, &walk, &WalkConditions::default()).unwrap();
+    let (free, own) = OptimalWalk::predict_freely(&MAN, walk, &conditions).unwrap();
     let cost = |of: &OptimalWalk| of.solution.progress.last().unwrap().cost;
     let share = walk.cycle_s() / own.cycle_s();
-    println!("{share:.3} of the cadence of people, cost {:.2} instead of {:.2}", cost(&free), cost(&usual));
+    println!("{share:.3} of the cadence of people, cost {:.2} instead of {:.2}", cost(&free), cost(usual));
     assert!((own.speed() - walk.speed()).abs() < 1e-12);
     assert!((0.95..=1.05).contains(&share) && (share - 1.0).abs() > 1e-6, "{share}");
-    assert!(cost(&free) < cost(&usual), "{} and {}", cost(&free), cost(&usual));
+    assert!(cost(&free) < cost(usual), "{} and {}", cost(&free), cost(usual));
 }
 
 #[test]
