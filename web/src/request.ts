@@ -364,7 +364,7 @@ export interface ConditionArgs {
   step_width?: number | null;
   /** Let both sides move differently even if their conditions are the same. */
   asymmetric?: boolean;
-  /** Choose cadence and step length too, for the least cost at the speed; takes two to three times as long. */
+  /** Choose cadence and step length too, for the least cost at the speed; takes about three times as long. */
   free_cadence?: boolean;
 }
 

@@ -272,7 +272,7 @@ pub(crate) struct ConditionArgs {
     /// Let both sides move differently even if their conditions are the same.
     #[arg(long)]
     pub(crate) asymmetric: bool,
-    /// Choose cadence and step length too, for the least cost at the speed; takes two to three times as long.
+    /// Choose cadence and step length too, for the least cost at the speed; takes about three times as long.
     #[arg(long)]
     pub(crate) free_cadence: bool,
 }
