@@ -6,9 +6,9 @@
 //! all visible markers, in which a marker counts as at most [`CAP`] away, so that neither excluded markers nor single
 //! lost ones decide:
 //!
-//! 1. A body is lost if the number of linear solves ended in more than [`FEW`] frames, or the markers are [`FAR`] from
-//!    it in more than [`FAR_SHARE`] of the frames. Then a few frames are fitted from nothing, and the sequence starts
-//!    again at the one in which the markers agree best with the body.
+//! 1. A body is lost if the number of linear solves ended in more than [`FEW`] frames, or most of the markers are
+//!    [`FAR`] from it in more than [`FAR_SHARE`] of the frames. Then a few frames are fitted from nothing, and the
+//!    sequence starts again at the one in which the markers agree best with the body.
 //! 2. If the markers of a segment are [`FAR`] from it in many frames, each angle of its joint and of the two joints
 //!    above is turned by a half and by quarter turns in the worst frame. If that brings the segment to half the
 //!    distance at a lower cost, the sequence starts again from this posture.
@@ -29,9 +29,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Frames for which no linear solve may be left without another attempt.
 const FEW: usize = 3;
-/// Root mean square distance of markers from a body that is lost, or from a segment that is folded the wrong way [m]:
+/// Distance of markers from a body that is lost, or from a segment that is folded the wrong way (root mean square) [m]:
 /// skin slides by at most 20 to 30 mm.
 const FAR: f64 = 0.040;
+/// Share of the markers, by weight, that must be that far off: exchanged and displaced ones do not make a lost body.
+const MOST_MARKERS: f64 = 0.5;
 /// Share of the frames in which the markers are that far off.
 const FAR_SHARE: f64 = 0.02;
 /// A marker counts as at most this far from its place [m]: about the distance between neighbouring joints.
@@ -53,7 +55,7 @@ struct Judgement {
     frames: usize,
     /// Frames for which no linear solve was left.
     unfinished: usize,
-    /// Frames whose markers are [`FAR`] from the body.
+    /// Frames with most markers [`FAR`] from the body.
     far: usize,
     /// Mean square distance of the markers, each at most [`CAP`] [m²].
     mean_square: f64,
@@ -69,7 +71,7 @@ impl Judgement {
             let is_fitted = frames.outcomes[frame].is_some();
             let square = if is_fitted { mean_square(problem, frames.posture(frame)) } else { CAP * CAP };
             all.frames += 1;
-            all.far += usize::from(square > FAR * FAR);
+            all.far += usize::from(!is_fitted || far_share(problem) > MOST_MARKERS);
             all.mean_square += square;
         }
         all.mean_square /= all.frames.max(1) as f64;
@@ -101,6 +103,12 @@ fn mean_square(problem: &mut FitProblem<'_>, posture: &[f64]) -> f64 {
     let capped = |(i, weight): (usize, &f64)| weight * problem.distance(i).min(CAP).powi(2);
     let loaded = || problem.frame_weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
     loaded().map(capped).sum::<f64>() / loaded().map(|(_, weight)| weight).sum::<f64>()
+}
+
+/// Share of the loaded markers that are [`FAR`] from the body at the current posture, by their weights.
+fn far_share(problem: &FitProblem<'_>) -> f64 {
+    let weight = |(i, weight): (usize, &f64)| if problem.distance(i) > FAR { *weight } else { 0.0 };
+    problem.frame_weights.iter().enumerate().map(weight).sum::<f64>() / problem.frame_weights.iter().sum::<f64>()
 }
 
 /// Whether the fit of too many frames ended for lack of linear solves, so that all are to be fitted together.
@@ -201,8 +209,7 @@ fn most_agreed(problem: &mut FitProblem<'_>, default: &[f64]) -> Option<usize> {
     best.map(|(_, frame)| frame)
 }
 
-/// The segment that is far from its markers in most frames, and the frame in which it is farthest; `None` if none is in
-/// many frames.
+/// The segment that is far from its markers in most frames, if in many, and the frame in which it is farthest.
 fn most_folded(problem: &mut FitProblem<'_>, frames: &Frames) -> Option<(usize, usize)> {
     let nodes = problem.tree.node_count();
     // Number of frames, largest distance and its frame, per node.

@@ -7,8 +7,7 @@
 //! Pinned by: tests/marker_outliers.rs
 
 /// Solves to find the posture of the first frame from nothing: placements of the rigid model and fits of the best.
-/// Recordings without faults take some hundred; more are needed to start joint by joint, or with swapped labels in the
-/// first frame.
+/// Recordings without faults take some hundred; starts joint by joint or with labels that are swapped take more.
 const TO_BEGIN: usize = 3200;
 /// To find the posture again after a gap.
 const TO_BEGIN_AGAIN: usize = 800;
@@ -84,8 +83,7 @@ impl Budget {
         self.granted += PER_FRAME;
     }
 
-    /// Limits what was not needed so far, so that a frame of a stream without end takes no longer than one of a
-    /// recording.
+    /// Limits what was not needed so far, so that a frame of an endless stream takes no longer than one of a recording.
     pub(super) fn limit_rest(&mut self) {
         self.granted = self.spent + self.left().min(LEFT_OF_BEGINNING);
     }
