@@ -27,6 +27,8 @@ pub struct FigureWorld {
     /// The joint of every body.
     joint_of: Vec<Option<usize>>,
     sides: Vec<Option<Side>>,
+    /// The surface of the ground.
+    ground: usize,
 }
 
 impl FigureWorld {
@@ -37,11 +39,14 @@ impl FigureWorld {
         world.materials.push(sole_material(&soft_ground(shoes)));
         let soles = add_soles(&mut world, human, 0, 0).map_err(WalkingError::from)?;
         add_level_ground(&mut world, 0);
-        let sides = soles.into_iter().map(|(_, side)| Some(side)).chain([None]).collect();
+        let ground = world.surfaces.len() - 1;
+        tree.add_solid_legs(&mut world).map_err(WalkingError::from)?;
+        let limbs = (ground..world.surfaces.len()).map(|_| None);
+        let sides = soles.into_iter().map(|(_, side)| Some(side)).chain(limbs).collect();
         world.check().map_err(WalkingError::from)?;
         let state = WorldState::new(&world);
         let joint_of = world.joint_of_body();
-        Ok(FigureWorld { world, state, settings, workspace: StepWorkspace::default(), tree, joint_of, sides })
+        Ok(FigureWorld { world, state, settings, workspace: StepWorkspace::default(), tree, joint_of, sides, ground })
     }
 
     /// Sets coordinates and rates of the figure.
@@ -72,9 +77,8 @@ impl FigureWorld {
     pub(super) fn lie_down(&mut self, now: &[[f64; 2]]) {
         // Soft shoes would push out what is already below the ground with thousands of newtons: the ground is rigid
         // from now on, and the body has its own softness. The shoes keep theirs.
-        let ground = self.sides.len() - 1;
-        let friction = self.world.materials[self.world.surfaces[ground].material].friction;
-        self.world.surfaces[ground].material = self.world.materials.len();
+        let friction = self.world.materials[self.world.surfaces[self.ground].material].friction;
+        self.world.surfaces[self.ground].material = self.world.materials.len();
         self.world.materials.push(Material { friction, restitution: 0.0, law: ContactLaw::Rigid });
         // The solids of a figure have a size.
         let _lies = self.tree.lie_down(&mut self.world, now);

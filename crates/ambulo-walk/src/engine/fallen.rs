@@ -24,10 +24,8 @@ impl FigureTree {
     /// Solids without size.
     pub(crate) fn lie_down(&self, world: &mut World, now: &[[f64; 2]]) -> Result<(), ShapeError> {
         self.stop_at_ranges(world, now);
-        let mass = self.model.mass();
-        let law = ContactLaw::Regularised { stiffness: STIFFNESS * mass, damping: DAMPING * mass };
         let material = world.materials.len();
-        world.materials.push(Material { friction: FRICTION, restitution: 0.0, law });
+        world.materials.push(self.flesh());
         for (id, solids) in self.model.body_ids().zip(FigureShape::new(&self.model, None, [0.0; 2]).solids) {
             let owner = Owner::Body(self.first_body + id.index());
             for (shape, place) in solids.iter().filter_map(contact_shape) {
@@ -37,6 +35,13 @@ impl FigureTree {
         }
         self.ignore_itself(world);
         Ok(())
+    }
+
+    /// The material of the solids.
+    pub(super) fn flesh(&self) -> Material {
+        let mass = self.model.mass();
+        let law = ContactLaw::Regularised { stiffness: STIFFNESS * mass, damping: DAMPING * mass };
+        Material { friction: FRICTION, restitution: 0.0, law }
     }
 
     /// Joints turn no further than their ranges, or than now if they are beyond them.
@@ -61,7 +66,7 @@ impl FigureTree {
 }
 
 /// The shape of a solid that touches others, and its place in the body [m]; faces lie between capsules, which touch.
-fn contact_shape(solid: &BodySolid) -> Option<(Result<Shape, ShapeError>, Vec3)> {
+pub(super) fn contact_shape(solid: &BodySolid) -> Option<(Result<Shape, ShapeError>, Vec3)> {
     match solid {
         BodySolid::Capsule { from, to, radius } if from == to => Some((Shape::sphere(*radius), *from)),
         BodySolid::Capsule { from, to, radius } => Some((Shape::capsule(Vec3::zeros(), to - from, *radius), *from)),

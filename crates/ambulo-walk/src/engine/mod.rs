@@ -56,6 +56,7 @@ pub(crate) mod energy;
 mod fallen;
 pub(crate) mod figure_tree;
 pub(crate) mod joint;
+mod legs;
 mod midpoint;
 mod samples;
 pub(crate) mod signal;

@@ -144,7 +144,7 @@ impl TouchWorkspace {
         self.parents.clear();
         self.parents.resize(world.bodies.len(), None);
         world.joints.iter().for_each(|joint| self.parents[joint.child] = joint.parent);
-        let apart = |a: usize, b: usize| may_touch(world, &self.parents, &world.surfaces[a], &world.surfaces[b]);
+        let apart = |a: usize, b: usize| may_touch(world, &self.parents, a, b);
         candidate_pairs(&self.boxes, apart, &mut self.pairs);
         for &(a, b) in &self.pairs {
             let (first, second) = (&world.surfaces[a], &world.surfaces[b]);
@@ -482,8 +482,14 @@ fn placed(owner: &Pose, surface: &Surface) -> Pose {
     }
 }
 
-/// Whether two surfaces can be in contact: not two obstacles, not connected bodies, not an ignored pair.
-pub(crate) fn may_touch(world: &World, parents: &[Option<usize>], a: &Surface, b: &Surface) -> bool {
+/// Whether two surfaces can be in contact: not two obstacles, not connected bodies, not an ignored pair, and limbs with
+/// limbs only.
+pub(crate) fn may_touch(world: &World, parents: &[Option<usize>], first: usize, second: usize) -> bool {
+    let is_limb = |surface: usize| world.limbs.iter().any(|&(a, b)| surface == a || surface == b);
+    if is_limb(first) || is_limb(second) {
+        return world.limbs.contains(&(first.min(second), first.max(second)));
+    }
+    let [a, b] = [first, second].map(|surface| &world.surfaces[surface]);
     let closed = |x: usize, y: usize| {
         world
             .closures

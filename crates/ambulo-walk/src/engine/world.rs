@@ -28,6 +28,8 @@ pub struct World {
     pub impact: ImpactLaw,
     /// Pairs of owners that pass through each other, in addition to bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
+    /// Pairs of surfaces that touch each other and nothing else: limbs of one figure.
+    pub limbs: Vec<(usize, usize)>,
     /// Motions that joints follow.
     pub figures: Vec<Figure>,
 }
@@ -45,6 +47,7 @@ impl Default for World {
             materials: Vec::new(),
             impact: ImpactLaw::Coulomb,
             ignored: Vec::new(),
+            limbs: Vec::new(),
             figures: Vec::new(),
         }
     }

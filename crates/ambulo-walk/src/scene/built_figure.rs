@@ -100,6 +100,7 @@ pub(super) fn add(
         world.materials.len() - 1
     });
     let soles = add_soles(world, &human, first_body, shoes).map_err(|e| built.place.error(e.to_string()))?;
+    controller.iter().try_for_each(|_| tree.add_solid_legs(world)).map_err(|e| built.place.error(e.to_string()))?;
     world.figures.push(Figure { model: model.clone(), coordinates: motion.signals });
     let live = motion.live.map(|(targets, start_s)| Live::Machines(LiveTargets { targets, figure, start_s }));
     let live = live.or(controller.map(|controller| Live::Controller(Box::new(controller))));

@@ -119,7 +119,7 @@ impl SceneChecks {
             if way.norm() <= size_m || self.is_too_fast[body] {
                 continue;
             }
-            let Some(other) = in_the_way(world, state, surface, way) else { continue };
+            let Some(other) = in_the_way(world, state, number, way) else { continue };
             self.is_too_fast[body] = true;
             let message = format!(
                 "`{}` moves {:.4} m in a step at {:.3} s, further than its own size of {size_m:.4} m, and near `{}`: \
@@ -151,20 +151,21 @@ fn turns(world: &World, state: &WorldState, closure: usize) -> usize {
 }
 
 /// A thin obstacle or another body that a surface may have passed on its last way; planes have no other side.
-fn in_the_way(world: &World, state: &WorldState, surface: &Surface, way: Vec3) -> Option<Owner> {
+fn in_the_way(world: &World, state: &WorldState, number: usize, way: Vec3) -> Option<Owner> {
+    let surface = &world.surfaces[number];
     let (low, high) = bounds(world, state, surface)?;
     let (low, high) = (low.inf(&(low - way)), high.sup(&(high - way)));
     let joints = world.joint_of_body();
     let parents: Vec<Option<usize>> =
         joints.iter().map(|joint| joint.and_then(|joint| world.joints[joint].parent)).collect();
-    let is_near = |other: &&Surface| {
+    let is_near = |(other_number, other): &(usize, &Surface)| {
         other.owner != surface.owner
             && other.shape.half_size().is_finite()
-            && may_touch(world, &parents, surface, other)
+            && may_touch(world, &parents, number, *other_number)
             && bounds(world, state, other)
                 .is_some_and(|(from, to)| (0..3).all(|k| from[k] <= high[k] && low[k] <= to[k]))
     };
-    world.surfaces.iter().find(is_near).map(|other| other.owner)
+    world.surfaces.iter().enumerate().find(is_near).map(|(_, other)| other.owner)
 }
 
 /// Corners of the box around a surface [m]; `None` for a plane.
