@@ -1,9 +1,10 @@
 //! Predicted walks that choose their cadence: at a given speed, the cadence of the least cost.
 //!
-//! The duration of a problem is fixed, so problems at several cadences are solved, each from the solution beside it.
-//! Three cadences, the middle one of which costs least, give a parabola, and its vertex is the cadence that is chosen.
-//! Costs of neighbours differ by some percent, and the solver stops within about one percent of a minimum; therefore
-//! each solution gets some more steps, and cadences are [`STEP`] apart.
+//! The duration of a problem is fixed. So the walk is solved at several cadences, each time starting from the solution
+//! at the cadence beside it. Where the middle one of three cadences costs least, a parabola is laid through the three
+//! costs; its lowest point is the cadence that is chosen. The solver stops about one percent above a minimum, and
+//! costs of neighbouring cadences differ by a few percent only. Therefore each solution gets some more steps of the
+//! solver, and cadences are [`STEP`] apart.
 
 use super::conditions::WalkConditions;
 use super::error::OptimalWalkError;

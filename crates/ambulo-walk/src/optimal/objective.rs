@@ -221,7 +221,7 @@ impl Quantity {
     }
 }
 
-/// What muscles can do at an instant, and its derivatives by angle and rate.
+/// Largest moment of the muscles at an instant, and its derivatives by angle and rate.
 fn strength_at(strength: &StrengthCurve, effort: &Effort, sign: f64, at: &Instant) -> [f64; 3] {
     let c = effort.coordinate.index();
     strength.smooth(at.posture[0][c], at.posture[1][c], sign)

@@ -141,7 +141,7 @@ impl MuscleTerms<'_> {
     }
 }
 
-/// What devices do at a joint, and what the body does there.
+/// Work of the devices at a joint, and work of the body at the same joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeviceEffort {
     /// The coordinate of the joint.

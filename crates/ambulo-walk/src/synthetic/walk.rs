@@ -89,7 +89,7 @@ pub struct PredictionReport {
     pub metabolic_power: f64,
     /// Cadence of people at this speed [steps/min] where the walk chose its own; `None` where it has theirs.
     pub usual_cadence: Option<f64>,
-    /// What devices and body do at joints with devices.
+    /// Work of devices, and of the body at their joints.
     pub devices: Vec<DeviceEffort>,
     /// Moment of the devices at each of these joints [N.m], one entry per frame.
     pub device_moments: Vec<Vec<f64>>,
