@@ -3,7 +3,7 @@
 
 use crate::scene_walkers::{example, scene, verdict};
 use ambulo::analysis::feasibility::VerdictState;
-use ambulo::contact::Shape;
+use ambulo::contact::{Shape, contacts};
 use ambulo::figure_shape::{BodySolid, FigureShape};
 use ambulo::findings::{Code, Findings};
 use ambulo::gait::{Gait, Speed, Walk};
@@ -669,6 +669,94 @@ fn a_figure_in_three_dimensions_survives_pushes_from_all_sides_and_falls_under_a
         assert!(pushed(Vec3::new(x, 0.0, z)), "{x} N forward, {z} N to the right");
     }
     assert!(!pushed(Vec3::z() * 600.0));
+}
+
+impl Spatial {
+    /// His walk with a push of 0.2 s at a phase of the second cycle, to the right if the force [N] is positive, for
+    /// five cycles.
+    fn shoved(&self, mut walk: PhysicalWalk, phase: f64, force_n: f64, mut look: impl FnMut(&PhysicalWalk)) -> bool {
+        let trunk = self.human.model.body("torso").unwrap().index();
+        let start_s = self.plan.cycle_s() * (1.0 + phase);
+        for (force, until_s) in [(0.0, start_s), (force_n, start_s + 0.2), (0.0, start_s + 5.0 * self.plan.cycle_s())] {
+            walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::z() * force };
+            while walk.time_s() < until_s && walk.fall().is_none() {
+                walk.step().unwrap();
+                look(&walk);
+            }
+        }
+        walk.fall().is_none()
+    }
+
+    fn without_recovery_steps(&self) -> PhysicalWalk {
+        let alone = ControlSettings { recovery_steps: false, ..ControlSettings::default() };
+        PhysicalWalk::new(&self.human, &self.plan, StepSettings::default(), &alone).unwrap()
+    }
+}
+
+#[test]
+fn recovery_steps_survive_shoves_from_the_side_that_feedback_alone_does_not() {
+    let (case, alone) = (&*SPATIAL, SPATIAL.without_recovery_steps());
+    let pushes = [(0.07, 150.0), (0.33, 150.0), (0.45, -150.0), (0.62, 150.0), (0.86, -150.0)];
+    let survived = |walk: &PhysicalWalk| {
+        pushes.into_iter().filter(|(phase, force)| case.shoved(walk.clone(), *phase, *force, |_| ())).count()
+    };
+    let [with, without] = [survived(&case.walk_of(&case.human)), survived(&alone)];
+    println!("with recovery steps {with} of {}, without {without}", pushes.len());
+    assert!(with == pushes.len() && without <= 1, "{with}, {without}");
+}
+
+#[test]
+fn nothing_is_planned_again_while_a_figure_walks_undisturbed() {
+    let mut walks = [SPATIAL.walk_of(&SPATIAL.human), SPATIAL.without_recovery_steps()];
+    for _ in 0..3000 {
+        for walk in &mut walks {
+            walk.step().unwrap();
+        }
+        let [with, without] = [0, 1].map(|k| walks[k].coordinates());
+        assert_eq!(with, without);
+    }
+}
+
+/// The foot that feedback alone would swing through the other leg is stopped by it.
+#[test]
+fn legs_do_not_pass_through_each_other() {
+    let case = &*SPATIAL;
+    let least = |is_solid: bool| {
+        let mut alone = case.without_recovery_steps();
+        let world = alone.world_mut();
+        let (surfaces, pairs) = (world.surfaces.clone(), world.limbs.clone());
+        if !is_solid {
+            world.limbs = pairs.iter().flat_map(|(a, b)| [(*a, *a), (*b, *b)]).collect();
+        }
+        let mut least = f64::INFINITY;
+        for (phase, force_n) in [(0.12, 150.0), (0.25, 150.0), (0.62, -150.0), (0.75, -150.0)] {
+            case.shoved(alone.clone(), phase, force_n, |walk| {
+                let placed = |surface: usize| {
+                    let Owner::Body(body) = surfaces[surface].owner else { panic!("a limb of an obstacle") };
+                    walk.poses()[body] * surfaces[surface].owner_from_shape
+                };
+                let mut points = Vec::new();
+                for &(a, b) in &pairs {
+                    contacts(&surfaces[a].shape, &placed(a), &surfaces[b].shape, &placed(b), 1.0, &mut points);
+                }
+                least = points.iter().map(|point| point.gap).fold(least, f64::min);
+            });
+        }
+        least
+    };
+    let [solid, soft] = [true, false].map(least);
+    println!("least distance of the legs: {:.1} mm solid, {:.1} mm if they are not", 1e3 * solid, 1e3 * soft);
+    assert!(solid > -0.03 && soft < -0.05, "{solid}, {soft}");
+}
+
+#[test]
+fn a_figure_of_a_scene_recovers_from_a_shove_from_the_side() {
+    let text = example("shoved-from-the-side.toml");
+    walks_on("shoved-from-the-side.toml", &text, 9.0);
+    let mut alone = scene(&text.replace("recovery_steps = true", "recovery_steps = false"));
+    let mut findings = Findings::default();
+    alone.run(&mut findings, |_| ()).unwrap();
+    assert!(findings.as_slice().iter().any(|finding| finding.code == Code::FigureFell), "{findings:?}");
 }
 
 #[test]

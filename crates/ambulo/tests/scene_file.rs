@@ -187,6 +187,7 @@ fn the_examples_are_scenes() {
         ("pushed-walker", [1, 1, 1, 0, 0]),
         ("pusher", [3, 2, 2, 0, 0]),
         ("rising-ground", [0, 1, 0, 0, 0]),
+        ("shoved-from-the-side", [1, 1, 1, 0, 0]),
         ("slope", [2, 2, 0, 0, 0]),
         ("stop-and-go", [0, 1, 0, 0, 0]),
         ("stumble", [0, 2, 0, 0, 0]),

@@ -10,6 +10,7 @@
 //! | `Phase` | φ | 1 | share of the cycle; waits for late feet, jumps to early ones | `phase` |
 //! | `Feedback` | k, d, K (x - x*) | N.m/rad, N.m.s/rad, N.m | impedance of joints, feedback of the state | `feedback` |
 //! | `Impedance` | τ_max | N.m | strength of the muscles at an angle and a rate | `linear` |
+//! | `Recovery` | α, β, f | rad, rad, 1 | steps that are planned again after a strong push | `recovery` |
 //! | `FallWatch` | | | whether the figure has fallen, and which joint reached its strength first | `fall` |
 //!
 //! The state x has all coordinates q but the place forward, and all rates q̇. A figure that has fallen is only damped.
@@ -21,16 +22,18 @@ use super::activation::activated;
 use super::fall::{Fall, FallWatch};
 use super::feedback::{Feedback, delay_steps, share_of};
 use super::figure::FigureWorld;
-use super::gains::{costs, gains};
+use super::gains::{PlanGains, costs, gains};
 use super::linear::with_impedances;
 use super::pace::Pace;
 use super::phase::{Phase, Sensed};
 use super::plan::CyclePlan;
+use super::recovery::Recovery;
 use super::riccati::StepMap;
 use super::settings::{Balance, ControlError, ControlSettings};
 use super::standing::{Maker, Stage};
 use super::walk_plan::{Body, SPEED_ROUNDING, WalkPlan};
 use crate::engine::{Motor, StepSettings};
+use crate::findings::Findings;
 use crate::model::CoordinateId;
 use crate::model::anthropometry::Human;
 use crate::optimal::{Solution, StandingMovements};
@@ -44,6 +47,8 @@ pub struct WalkController {
     phase: Phase,
     feedback: Feedback,
     fall: FallWatch,
+    /// None where no step is planned again.
+    recovery: Option<Recovery>,
 }
 
 impl WalkController {
@@ -60,21 +65,22 @@ impl WalkController {
         let mut plan = CyclePlan::new(human, solution, step.step_s)?;
         plan.set_torques(&human.model, solution.cycle_s(), &settings.torques)?;
         let feedback = Feedback::new(human, [plan.joints(), plan.places()], settings, step.step_s)?;
-        let (gains, value, maps) = if settings.balance == Balance::WholeState {
-            let maps = FigureWorld::new(human, solution.problem().shoes, step)?.maps(&plan, &feedback.impedances)?;
-            let maps = activated(maps, feedback.left);
-            let (gains, value) = gains(human, &plan, &maps, settings, step.step_s)?;
-            (gains, Some(value), feedback.kept(maps))
+        let mut figure = FigureWorld::new(human, solution.problem().shoes, step)?;
+        let (gains, maps) = if settings.balance == Balance::WholeState {
+            let maps = activated(figure.maps(&plan, &feedback.impedances)?, feedback.left);
+            (gains(human, &plan, &maps, settings, step.step_s)?, feedback.kept(maps))
         } else {
-            (Vec::new(), None, Vec::new())
+            (PlanGains::default(), Vec::new())
         };
+        let recovery = if gains.along.is_empty() { None } else { Recovery::new(&human.model, figure) };
+        let PlanGains { gains, at_join: value, along } = gains;
         let body = Body::of(human);
-        let soles_m = [0, 1].map(|foot| body.lowest(&plan.steps[plan.strikes[foot]].state[0])[foot]);
         let carrying = feedback.joints.iter().copied().filter(|&c| share_of(human, c).0 >= 1.0).collect();
         let speed = solution.speed();
+        let soles_m = [0, 1].map(|foot| body.lowest(&plan.steps[plan.strikes[foot]].state[0])[foot]);
         Ok(WalkController {
             plan: WalkPlan {
-                paces: vec![Arc::new(Pace { speed, plan, gains, maps, soles_m, value })],
+                paces: vec![Arc::new(Pace { speed, plan, gains, maps, soles_m, value, along })],
                 standing: None,
                 body: Arc::new(body),
                 speed,
@@ -83,6 +89,7 @@ impl WalkController {
             phase: Phase::new(&human.model, step.step_s),
             feedback,
             fall: FallWatch::new(carrying),
+            recovery,
         })
     }
 
@@ -109,10 +116,10 @@ impl WalkController {
         let both = [&*self.feedback.impedances, &feedback.impedances];
         let maps = with_impedances(maps, &pace.plan, both, step_s).ok_or(ControlError::Riccati)?;
         let maps = activated(maps, feedback.left);
-        let (gains, value) = gains(human, &pace.plan, &maps, settings, step_s)?;
-        let pace = Pace { gains, value: Some(value), maps: feedback.kept(maps), ..Pace::clone(pace) };
+        let PlanGains { gains, at_join: value, along } = gains(human, &pace.plan, &maps, settings, step_s)?;
+        let pace = Pace { gains, value, along, maps: feedback.kept(maps), ..Pace::clone(pace) };
         let plan = WalkPlan { paces: vec![Arc::new(pace)], standing: None, ..self.plan.clone() };
-        Ok(WalkController { plan, feedback, ..self.clone() })
+        Ok(WalkController { plan, feedback, recovery: None, ..self.clone() })
     }
 
     /// Mean square, over hips, knees, ankles and the lumbar joint, of the difference of their angles from the plan
@@ -244,6 +251,14 @@ impl WalkController {
         self
     }
 
+    /// The same controller, which tries recovery steps with this figure.
+    pub(super) fn predicting_with(mut self, figure: &FigureWorld) -> WalkController {
+        if let Some(recovery) = &mut self.recovery {
+            recovery.set_world(figure.clone());
+        }
+        self
+    }
+
     /// Coordinates and rates of the plan at the present phase, with the soles at the height of the plan.
     #[must_use]
     pub fn start(&self) -> [Vec<f64>; 2] {
@@ -300,10 +315,55 @@ impl WalkController {
         if self.fall.fall().is_some() {
             return self.feedback.limp(now);
         }
-        let motors = self.feedback.motors(plan, phase, &plan.step(phase.at), sensed);
+        self.plan_recovery(sensed);
+        let (plan, phase) = (&self.plan, &mut self.phase);
+        let mut planned = plan.step(phase.at);
+        if let Some(recovery) = &mut self.recovery {
+            recovery.apply(plan, phase, &mut planned);
+        }
+        let motors = self.feedback.motors(plan, phase, &planned, sensed);
         self.fall.watch_limits(&motors, now, phase.time_s);
-        phase.advance(plan);
+        phase.advance(plan, self.recovery.as_ref().map_or(0.0, Recovery::faster));
         motors
+    }
+
+    /// Plans the step under way again after a strong push.
+    fn plan_recovery(&mut self, sensed: Sensed<'_>) {
+        if let Some(mut recovery) = self.recovery.take_if(|_| self.phase.at.stage == Stage::Walking) {
+            let trial = |recovery, world, ahead_s| self.trial(recovery, world, ahead_s, sensed);
+            recovery.plan(self.phase.time_s, || self.cost_to_go(sensed.now), trial);
+            self.recovery = Some(recovery);
+        }
+    }
+
+    /// Simulates the figure with other recovery steps for a time [s], in a world of its own whose level ground is where
+    /// it stands: the cost-to-go at the end, or the share of the time at which it fell.
+    fn trial(&self, recovery: Recovery, mut world: FigureWorld, ahead_s: f64, sensed: Sensed<'_>) -> Result<f64, f64> {
+        let mut own = WalkController { recovery: Some(recovery), ..self.clone() };
+        let [mut q, qd]: [Vec<f64>; 2] = [0, 1].map(|k| sensed.now.iter().map(|now| now[k]).collect());
+        q[own.plan.root().up] -= own.phase.level_m;
+        own.phase.level_m = 0.0;
+        world.place(&q, &qd);
+        let (mut loads_n, mut findings) = (sensed.loads_n, Findings::default());
+        let steps = (ahead_s / world.settings.step_s) as usize;
+        for step in 0..steps {
+            for (c, motor) in own.act(&world.read(), loads_n).into_iter().enumerate() {
+                motor.into_iter().for_each(|motor| world.drive(c, motor));
+            }
+            if own.fall().is_some() || world.step(&mut findings).is_err() {
+                return Err(step as f64 / steps as f64);
+            }
+            loads_n = world.loads();
+        }
+        Ok(own.cost_to_go(&world.read()))
+    }
+
+    /// Cost of a deviation from the plan until it has passed, xᵀ P x with P of the Riccati equation; not a number where
+    /// no step is planned again.
+    fn cost_to_go(&self, now: &[[f64; 2]]) -> f64 {
+        let (plan, phase) = (&self.plan, &self.phase);
+        let apart = self.feedback.deviation(plan, phase, &plan.step(phase.at), now);
+        plan.between().cost_to_go(phase.at.share, &apart).unwrap_or(f64::NAN)
     }
 
     /// The fall, once the pelvis was lower than 0.7 of its first height over the ground. Then joints are only damped.

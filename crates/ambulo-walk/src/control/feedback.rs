@@ -130,12 +130,7 @@ impl Feedback {
             }
             return feedback;
         }
-        let up = plan.root().up;
-        let higher = phase.level_m + (plan.height_ratio - 1.0) * planned.state[0][up];
-        let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
-        let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
-        let torques = self.joints.iter().filter(|_| self.left.is_some()).map(|joint| self.acting[*joint]);
-        let deviation = DVector::from_vec(places.chain(rates).chain(torques).collect());
+        let deviation = self.deviation(plan, phase, planned, now);
         let (at, deviation) = self.foreseen(plan, phase.at, deviation);
         if let Some(torques) = plan.feedback(at, &deviation) {
             for (joint, torque) in self.joints.iter().zip(torques.iter()) {
@@ -145,6 +140,22 @@ impl Feedback {
             }
         }
         feedback
+    }
+
+    /// The deviation of the state from a planned time step, with the torques that are on their way.
+    pub(super) fn deviation(
+        &self,
+        plan: &WalkPlan,
+        phase: &Phase,
+        planned: &PlannedStep,
+        now: &[[f64; 2]],
+    ) -> DVector<f64> {
+        let up = plan.root().up;
+        let higher = phase.level_m + (plan.height_ratio - 1.0) * planned.state[0][up];
+        let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
+        let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
+        let torques = self.joints.iter().filter(|_| self.left.is_some()).map(|joint| self.acting[*joint]);
+        DVector::from_vec(places.chain(rates).chain(torques).collect())
     }
 
     /// When feedback of now will act, and the deviation of the state then: the feedback until then is known.

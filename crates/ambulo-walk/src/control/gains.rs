@@ -12,6 +12,7 @@
 
 use super::activation::left_over;
 use super::feedback::{share_of, size_of};
+use super::pace::KEPT_EVERY;
 use super::plan::{CyclePlan, Root};
 use super::riccati::{Costs, StepMap};
 use super::settings::{ControlError, ControlSettings};
@@ -19,19 +20,42 @@ use crate::model::anthropometry::Human;
 use crate::optimal::StandingMovements;
 use nalgebra::{DMatrix, DVector};
 
-/// Gains of all steps of a plan with these maps, and the matrix P of [`super::pace::Pace::value`].
+/// Gains of a plan, and matrices P of its Riccati equation.
+#[derive(Default)]
+pub(super) struct PlanGains {
+    /// K of each time step.
+    pub(super) gains: Vec<DMatrix<f64>>,
+    /// P where a start from standing joins the walk; none without gains.
+    pub(super) at_join: Option<DMatrix<f64>>,
+    /// P of every tenth time step; empty where no step is planned again.
+    pub(super) along: Vec<DMatrix<f64>>,
+}
+
+/// Gains of all steps of a plan with these maps.
 pub(super) fn gains(
     human: &Human,
     plan: &CyclePlan,
     maps: &[StepMap],
     settings: &ControlSettings,
     step_s: f64,
-) -> Result<(Vec<DMatrix<f64>>, DMatrix<f64>), ControlError> {
+) -> Result<PlanGains, ControlError> {
     let costs = costs(human, plan, settings, step_s);
     let (gains, mut value) = costs.periodic(maps).ok_or(ControlError::Riccati)?;
     let joined = plan.step_at(StandingMovements::JOINS[1]);
-    costs.gains(&maps[joined..], &mut value).ok_or(ControlError::Riccati)?;
-    Ok((gains, value))
+    let is_kept = settings.recovery_steps && plan.root.sideways.is_some();
+    let first = if is_kept { 0 } else { joined };
+    let (mut at_join, mut along) = (None, Vec::new());
+    let keep = |number: usize, value: &DMatrix<f64>| {
+        if first + number == joined {
+            at_join = Some(value.clone());
+        }
+        if is_kept && number % KEPT_EVERY == 0 {
+            along.push(value.clone());
+        }
+    };
+    costs.gains_with(&maps[first..], &mut value, keep).ok_or(ControlError::Riccati)?;
+    along.reverse();
+    Ok(PlanGains { gains, at_join, along })
 }
 
 /// The diagonal matrices Q and R of a time step.

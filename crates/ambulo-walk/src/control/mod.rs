@@ -17,7 +17,9 @@
 //! the plan when a foot strikes, early or late. An early or late strike is not part of the linear system: with K alone
 //! (without k and d) the figure falls when it is pushed backwards.
 //!
-//! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). Its legs pass through each other.
+//! The figure is planar, or has three dimensions ([`crate::optimal::OptimalWalk`]). In the plane its legs pass each
+//! other side by side; in three dimensions they are solid, and after a strong push the step under way is planned again
+//! (module `recovery`).
 //! Several plans make one controller whose speed can be changed on the way ([`WalkController::joined`]); it can stop,
 //! stand and walk off (`WalkController::with_standing`).
 //!
@@ -37,6 +39,7 @@ mod pace;
 mod phase;
 mod physical;
 pub(crate) mod plan;
+mod recovery;
 pub(crate) mod riccati;
 mod schedule;
 mod settings;

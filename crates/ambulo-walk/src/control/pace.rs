@@ -4,6 +4,9 @@ use super::plan::{CyclePlan, PlannedStep};
 use super::riccati::StepMap;
 use nalgebra::{DMatrix, DVector};
 
+/// Time steps between two matrices P that are kept along the plan.
+pub(super) const KEPT_EVERY: usize = 10;
+
 /// A plan at one speed, and its gains.
 #[derive(Debug, Clone)]
 pub(super) struct Pace {
@@ -18,6 +21,8 @@ pub(super) struct Pace {
     pub(super) soles_m: [f64; 2],
     /// Matrix P of the Riccati equation where a start from standing joins the walk; none without gains.
     pub(super) value: Option<DMatrix<f64>>,
+    /// Matrix P of every tenth time step; empty where no step is planned again.
+    pub(super) along: Vec<DMatrix<f64>>,
 }
 
 /// Two paces and the share of the second one, between which the present speed lies.
@@ -49,6 +54,22 @@ impl Between<'_> {
         let of = |pace: &Pace| pace.gains.get(pace.plan.step_at(phase)).map(|gain| gain * apart);
         let first = of(self.paces[0])?;
         if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
+    }
+
+    /// xᵀ P x of a deviation of the state; none where P is not kept.
+    pub(super) fn cost_to_go(&self, phase: f64, apart: &DVector<f64>) -> Option<f64> {
+        let of = |pace: &Pace| {
+            let value = pace.along.get(pace.plan.step_at(phase) / KEPT_EVERY)?;
+            Some(apart.dot(&(value * apart)))
+        };
+        let first = of(self.paces[0])?;
+        if self.share > 0.0 { Some(first * (1.0 - self.share) + of(self.paces[1])? * self.share) } else { Some(first) }
+    }
+
+    /// The foot that strikes next: 0 right, 1 left.
+    pub(super) fn next_foot(&self, phase: f64) -> usize {
+        let [right, left] = [0, 1].map(|foot| (self.strike(foot) - phase).rem_euclid(1.0));
+        usize::from(left < right)
     }
 
     /// The deviation of the state after a time step; none without maps.

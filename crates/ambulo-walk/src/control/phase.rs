@@ -1,6 +1,6 @@
 //! Where a figure is in its plan: the phase, and the stages of stopping, standing and walking off.
 //!
-//!   φ ← φ + 1/n             in every time step, unless a foot is late (at most 0.3 s)
+//!   φ ← φ + (1 + f)/n       in every time step, unless a foot is late (at most 0.3 s)
 //!   φ ← φ_strike(foot)      when a foot strikes that was off the ground for 0.2 s, if |φ_strike - φ| < 0.25
 //!   ℓ ← s - s*              when a foot strikes
 //!
@@ -8,6 +8,7 @@
 //! |---|---|---|---|
 //! | `at.share` | φ | 1 | share of the cycle, 0 to 1 |
 //! | `plan.steps.len()` | n | 1 | time steps of a cycle |
+//! | `faster` | f | 1 | by how much a recovery step is faster |
 //! | `level_m` | ℓ | m | height of the ground on which the figure stands |
 //! | `Body::lowest`, `soles_m` | s, s* | m | height of the sole at the strike, now and in the plan |
 //!
@@ -104,6 +105,11 @@ impl Phase {
         }
     }
 
+    /// Whether a foot is off the ground.
+    pub(super) fn swings(&self, foot: usize) -> bool {
+        self.swing_s[foot] > 0.0
+    }
+
     fn strike(&mut self, foot: usize, plan: &WalkPlan) {
         self.stance = foot;
         let planned = plan.between().strike(foot);
@@ -113,8 +119,9 @@ impl Phase {
         }
     }
 
-    /// The phase advances with time, but waits for a foot that has not struck when it should.
-    pub(super) fn advance(&mut self, plan: &WalkPlan) {
+    /// The phase advances with time, faster by a share in a recovery step, but waits for a foot that has not struck
+    /// when it should.
+    pub(super) fn advance(&mut self, plan: &WalkPlan, faster: f64) {
         self.time_s += self.step_s;
         if let Some(standing) = plan.standing.as_ref().filter(|_| self.at.stage != Stage::Walking) {
             self.at.stage = standing.next(self.at.stage, self.stands);
@@ -122,7 +129,7 @@ impl Phase {
             return;
         }
         let between = plan.between();
-        let step = 1.0 / between.mix(|pace| pace.plan.steps.len() as f64);
+        let step = (1.0 + faster) / between.mix(|pace| pace.plan.steps.len() as f64);
         let is_late = |foot: usize| {
             let until = (between.strike(foot) - self.at.share).rem_euclid(1.0);
             until <= 1.5 * step && self.swing_s[foot] > SHORTEST_SWING_S

@@ -47,7 +47,7 @@ impl PhysicalWalk {
         controller: WalkController,
     ) -> Result<PhysicalWalk, ControlError> {
         let mut figure = FigureWorld::new(human, plan.problem().shoes, step)?;
-        let controller = controller.of_figure(human);
+        let controller = controller.of_figure(human).predicting_with(&figure);
         let [q, qd] = controller.start();
         figure.place(&q, &qd);
         Ok(PhysicalWalk { figure, controller, findings: Findings::default() })

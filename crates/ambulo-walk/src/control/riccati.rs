@@ -54,9 +54,20 @@ impl Costs {
     /// Gains K_k of some steps; `value` is P after the last step and becomes P before the first. `None` if R + Bᵀ P B
     /// has no inverse.
     pub(super) fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
+        self.gains_with(steps, value, |_, _| ())
+    }
+
+    /// As `Costs::gains`; `seen` gets the number of each step, the last one first, and P before it.
+    pub(super) fn gains_with(
+        &self,
+        steps: &[StepMap],
+        value: &mut DMatrix<f64>,
+        mut seen: impl FnMut(usize, &DMatrix<f64>),
+    ) -> Option<Vec<DMatrix<f64>>> {
         let mut gains = Vec::with_capacity(steps.len());
-        for step in steps.iter().rev() {
+        for (number, step) in steps.iter().enumerate().rev() {
             gains.push(self.before(step, value)?.0);
+            seen(number, value);
         }
         gains.reverse();
         Some(gains)

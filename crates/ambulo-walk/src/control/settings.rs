@@ -21,6 +21,8 @@ pub struct ControlSettings {
     /// Time constant with which torques of feedback follow their command [s], as muscle forces follow activation; 0: at
     /// once.
     pub activation_s: f64,
+    /// Whether a figure in three dimensions plans its step again after a strong push, by trial in the simulator.
+    pub recovery_steps: bool,
     /// Torques along the plan.
     pub torques: TorqueCurves,
     /// Deviations that cost 1 per second.
@@ -88,6 +90,7 @@ impl Default for ControlSettings {
             balance: Balance::WholeState,
             delay_s: 0.0,
             activation_s: 0.0,
+            recovery_steps: true,
             torques: TorqueCurves::Plan,
             costs: TrackingCosts {
                 angle: 0.1,

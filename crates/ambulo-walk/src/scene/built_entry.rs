@@ -201,7 +201,7 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
         return Err(arms.wrong("no such key for a walk in the mode `optimal`, which moves the arms"));
     }
     let own = value.table("{ stiffness = …, damping = … }")?;
-    own.only(&[&["gains", "stiffness", "damping", "delay", "activation", "costs", "torques"]])?;
+    own.only(&[&["gains", "stiffness", "damping", "delay", "activation", "recovery_steps", "costs", "torques"]])?;
     if !walk.is_some_and(|walk| walk.mode != FigureWalkMode::Curves) {
         return Err(value
             .wrong("no such key without a `walk` in the mode `corrected` or `optimal`, which the controller follows"));
@@ -209,12 +209,16 @@ fn control(table: &Table<'_>, walk: Option<&WalkEntry>) -> Result<Option<Control
     if let Some(coordinate) = table.get("coordinate") {
         return Err(coordinate.wrong("no such key together with `control`, which drives all joints"));
     }
+    if let Some(steps) = own.get("recovery_steps").filter(|_| !is_spatial) {
+        return Err(steps.wrong("no such key for a planar figure: recovery steps need three dimensions"));
+    }
     let default = gains(&own, is_spatial)?;
     let settings = ControlSettings {
         stiffness: own.above_zero_or("stiffness", default.stiffness)?,
         damping_s: own.zero_or_more_or("damping", default.damping_s)?,
         delay_s: lateness(&own, "delay")?,
         activation_s: lateness(&own, "activation")?,
+        recovery_steps: own.truth_or("recovery_steps", default.recovery_steps)?,
         costs: tracking_costs::read(&own, default.costs)?,
         ..default
     };

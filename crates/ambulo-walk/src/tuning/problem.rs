@@ -50,7 +50,8 @@ impl TuningProblem {
         gains: &[Gain],
     ) -> Result<TuningProblem, GainError> {
         gains.iter().try_for_each(|gain| gain.check(start))?;
-        let mut start = start.clone();
+        // Feedback is judged, not what recovery steps make of it.
+        let mut start = ControlSettings { recovery_steps: false, ..start.clone() };
         for gain in gains {
             let value = rounded(gain.value(&start));
             gain.set(&mut start, value);
