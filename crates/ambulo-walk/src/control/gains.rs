@@ -49,7 +49,7 @@ pub(super) fn gains(
         if first + number == joined {
             at_join = Some(value.clone());
         }
-        if is_kept && number % KEPT_EVERY == 0 {
+        if is_kept && number.is_multiple_of(KEPT_EVERY) {
             along.push(value.clone());
         }
     };

@@ -108,7 +108,8 @@ impl Default for ControlSettings {
 impl ControlSettings {
     /// Gains that survive stronger pushes than the default ones, for planar figures whose feedback acts at once: found
     /// by [`crate::tuning`] for a woman of 60 kg at 1.2 m/s. In three dimensions they survive fewer pushes from the
-    /// side, and with late feedback they survive fewer than the default ones (docs/measured/PHYSICAL_WALK.md).
+    /// side without recovery steps, and with late feedback they survive fewer than the default ones
+    /// (docs/measured/PHYSICAL_WALK.md).
     #[must_use]
     pub fn tuned_in_the_plane() -> ControlSettings {
         let default = ControlSettings::default();
