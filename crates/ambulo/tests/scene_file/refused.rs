@@ -426,6 +426,12 @@ fn built_figures_that_make_no_sense_are_rejected() {
             "walk = { mode = \"curve\" }",
             "expected one of \"corrected\", \"optimal\", \"curves\". hint: did you mean \"curves\"?",
         ),
+        (
+            ANN,
+            "walk = { mode = \"corrected\" }\ncontrol = { recovery_steps = false }",
+            "found false; expected no such key for a planar figure: recovery steps need three dimensions",
+        ),
+        (ANN, "walk = { mode = \"optimal\" }\ncontrol = { recovery_steps = 1 }", "found 1; expected true or false"),
         (ANN, "arms = { left = { abduction_deg = 120 } }", "expected an angle away from the trunk, up to 90 degrees"),
         (
             ANN,
