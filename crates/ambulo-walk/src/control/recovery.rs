@@ -6,7 +6,7 @@
 //!
 //!   J(c) = (x - x*)ᵀ P (x - x*) at T + w_a (α² + β²) + w_f f²          or 10⁶ (2 - t/T) after a fall at t
 //!
-//! is followed until the foot strikes. In level walking, and after pushes that feedback alone can take, nothing is
+//! is followed until the foot strikes, or the figure begins to stop. In level walking, and after pushes that feedback alone can take, nothing is
 //! tried.
 //!
 //! | code | symbol | unit | meaning |
@@ -17,6 +17,7 @@
 //! | `WalkController::cost_to_go` | (x - x*)ᵀ P (x - x*) | 1 | P of the Riccati equation at this phase |
 //! | `WORTH_IT` | v | 1 | pushes of 100 N for 0.2 s cost 1 to 4, of 150 N 3 to 15 |
 //! | `AHEAD_S` | T | s | one step and a half |
+//! | `COSTS` | w_a, w_f | 1/rad², 1 | costs of a change, small beside those of a deviation |
 //!
 //! Legs are solid in these trials as they are in the walk, so that the foot takes a way past the other leg. Swing legs
 //! move to a change at 2.5 rad/s and back to the plan at the same rate once the foot has struck.
@@ -26,6 +27,7 @@
 use super::figure::FigureWorld;
 use super::phase::Phase;
 use super::plan::PlannedStep;
+use super::standing::Stage;
 use super::walk_plan::WalkPlan;
 use crate::model::{Model, Movement, Side};
 
@@ -167,7 +169,8 @@ impl Recovery {
     /// Changes a planned time step.
     pub(super) fn apply(&mut self, plan: &WalkPlan, phase: &Phase, planned: &mut PlannedStep) {
         let foot = plan.between().next_foot(phase.at.share);
-        if foot != self.foot {
+        // A stop, a start and standing have their own plans, in which the phase does not advance.
+        if foot != self.foot || phase.at.stage != Stage::Walking {
             (self.foot, self.change) = (foot, StepChange::default());
         }
         let most = RATE * phase.step_s;
