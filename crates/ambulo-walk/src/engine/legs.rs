@@ -1,7 +1,8 @@
 //! Solid legs: what is below one knee of a figure in three dimensions does not pass through what is below the other.
 //!
-//! The middle capsule of each shank, foot and toes of the body that pictures show ([`FigureShape`]) touches those of
-//! other legs, and nothing else: soles touch the ground. Thighs are not solid, since those of people touch as well.
+//! Of the body that pictures show ([`FigureShape`]), one capsule per part is solid: from knee to ankle, from heel to
+//! ball, and from the ball to the tip of the toes. It touches those of the other leg of the same figure and nothing
+//! else: soles touch the ground. Thighs are not solid, since those of people touch as well.
 
 use super::fallen::contact_shape;
 use super::figure_tree::{FigureTree, center_from};

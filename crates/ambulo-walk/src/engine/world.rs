@@ -28,7 +28,7 @@ pub struct World {
     pub impact: ImpactLaw,
     /// Pairs of owners that pass through each other, in addition to bodies that a joint or an active closure connects.
     pub ignored: Vec<(Owner, Owner)>,
-    /// Pairs of surfaces that touch each other and nothing else: limbs of one figure.
+    /// Pairs of surfaces that touch each other and nothing else: limbs of one figure. The lower number comes first.
     pub limbs: Vec<(usize, usize)>,
     /// Motions that joints follow.
     pub figures: Vec<Figure>,

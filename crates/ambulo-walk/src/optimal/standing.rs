@@ -1,7 +1,7 @@
 //! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
 //!
 //! A stop begins in a walk, at the instant at which the left foot has left the ground. The left foot makes a step, the
-//! right foot comes beside it, and the figure stands still. A start begins in the posture in which a stop ends. The
+//! right foot comes beside it, and the figure stands still. A start begins where a stop ends, in standing. The
 //! load moves to the right foot, the left foot makes a short step, the right foot a longer one, and the next step of
 //! the left foot belongs to the walk. The motion between these postures minimises the cost of muscles, as in other
 //! movements. The first guess is a mean of the walk and the posture of standing, in which the loaded foot stays where
