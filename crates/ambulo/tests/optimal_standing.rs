@@ -42,11 +42,14 @@ fn apart(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3], forward: usize) -> [f64; 2] {
 fn a_slow_walk_is_stopped_and_begun_without_outside_forces() {
     let human = full_body(&Build::usual(SegmentTable::DeLevaMale)).unwrap();
     let walk = walk(&human, StandingMovements::speed(&human));
-    let StandingMovements { stop, start } = StandingMovements::find(&human, &walk).unwrap();
+    let StandingMovements { stop, start, steps } = StandingMovements::find(&human, &walk).unwrap();
     let (forward, weight_n) = (human.model.coordinate("pelvis_tx").unwrap().index(), human.model.mass() * G);
     let [stops, joins] = StandingMovements::JOINS.map(|share| state_at(&walk, share * walk.cycle_s()));
     let rest = state_at(&stop, stop.problem().duration_s);
-    for (name, movement, begins, ends) in [("stop", &stop, &stops, &rest), ("start", &start, &rest, &joins)] {
+    let steps = steps.expect("steps in three dimensions");
+    for (name, movement, begins, ends) in
+        [("stop", &stop, &stops, &rest), ("start", &start, &rest, &joins), ("steps", &steps, &rest, &rest)]
+    {
         assert_eq!(movement.unbalanced(NO_ROOT_FORCE), None, "{name}");
         assert_eq!(movement.overload(0.05), None, "{name}");
         let samples = samples(movement);
@@ -66,6 +69,7 @@ fn a_slow_walk_is_stopped_and_begun_without_outside_forces() {
     assert!(rest[1].iter().all(|rate| rate.abs() < 0.05), "{:?}", rest[1]);
     feet_are_side_by_side(&stop);
     starts_as_people_do(&human, &start, &walk);
+    lifts_one_foot_after_the_other(&steps, weight_n);
 }
 
 /// Places of the heels forward [m], right and left.
@@ -104,6 +108,31 @@ fn strikes(motion: &Solution, samples: &[Sample], side: Side, weight_n: f64) -> 
     let settled = |time_s: f64| samples.iter().find(|sample| sample.time_s >= time_s + 0.15);
     let own = usize::from(side == Side::Left);
     pairs.filter_map(|pair| Some((pair[1].time_s, heels(motion, settled(pair[1].time_s)?)[own]))).collect()
+}
+
+/// The load first moves to the foot that is then lifted, as before a step forward; each foot comes down where it stood.
+fn lifts_one_foot_after_the_other(steps: &Solution, weight_n: f64) {
+    let samples = samples(steps);
+    let off = |side: Side| samples.iter().position(|sample| load(steps, sample, side, weight_n) < 0.002).unwrap();
+    let strikes = Side::BOTH.map(|side| strikes(steps, &samples, side, weight_n));
+    let [right, left] = strikes.each_ref().map(|strikes| strikes[0]);
+    let most = samples[..off(Side::Left)].iter().map(|sample| load(steps, sample, Side::Left, weight_n));
+    let most = most.fold(0.0, f64::max);
+    let standing = heels(steps, &samples[0]);
+    println!(
+        "steps: up to {most:.2} of the weight on the left foot, off at {:.2} s, down at {:.2} s {:.0} mm further; \
+         right \
+         foot off at {:.2} s, down at {:.2} s {:.0} mm further",
+        samples[off(Side::Left)].time_s,
+        left.0,
+        1e3 * (left.1 - standing[1]),
+        samples[off(Side::Right)].time_s,
+        right.0,
+        1e3 * (right.1 - standing[0]),
+    );
+    assert!(most > 0.6 && strikes.iter().all(|strikes| strikes.len() == 1));
+    assert!(left.0 < samples[off(Side::Right)].time_s && left.0 < 0.5 * steps.problem().duration_s + 0.1);
+    assert!((left.1 - standing[1]).abs() < 0.02 && (right.1 - standing[0]).abs() < 0.02);
 }
 
 /// As people do: the centre of pressure first moves back and towards the foot that will swing, the pelvis hardly moves

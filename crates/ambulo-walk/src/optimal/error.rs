@@ -97,7 +97,7 @@ pub enum OptimalWalkError {
     /// A movement without its forces.
     #[error("no {movement} was found for a walk at {speed:.2} m/s: {unbalanced}")]
     NoMovement {
-        /// `stop` or `start`.
+        /// `stop`, `start` or `movement of steps on the spot`.
         movement: &'static str,
         /// Speed of the walk [m/s].
         speed: f64,
@@ -110,7 +110,7 @@ pub enum OptimalWalkError {
          joins the walk"
     )]
     Misses {
-        /// `stop` or `start`.
+        /// `stop`, `start` or `movement of steps on the spot`.
         movement: &'static str,
         /// Speed of the walk [m/s].
         speed: f64,
@@ -118,7 +118,7 @@ pub enum OptimalWalkError {
     /// A movement that leaves the ground.
     #[error("no {movement} was found for a walk at {speed:.2} m/s: the figure would hop")]
     Hops {
-        /// `stop` or `start`.
+        /// `stop`, `start` or `movement of steps on the spot`.
         movement: &'static str,
         /// Speed of the walk [m/s].
         speed: f64,

@@ -1,10 +1,10 @@
 //! Predicted walks that choose their cadence: at a given speed, the cadence of the least cost.
 //!
 //! The duration of a problem is fixed. So the walk is solved at several cadences, each time starting from the solution
-//! at the cadence beside it. When the middle one of three neighbouring cadences is the cheapest, a parabola goes through
-//! their costs, and its lowest point is the cadence that is chosen. The solver stops about one percent above a minimum, and
-//! costs of neighbouring cadences differ by a few percent only. Therefore each solution gets some more steps of the
-//! solver, and cadences are [`STEP`] apart.
+//! at the cadence beside it. When the middle one of three neighbouring cadences is the cheapest, a parabola goes
+//! through their costs, and its lowest point is the cadence that is chosen. The solver stops about one percent above a
+//! minimum, and costs of neighbouring cadences differ by a few percent only. Therefore each solution gets some more
+//! steps of the solver, and cadences are [`STEP`] apart.
 
 use super::conditions::WalkConditions;
 use super::error::OptimalWalkError;

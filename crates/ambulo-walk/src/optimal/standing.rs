@@ -1,9 +1,10 @@
-//! Coming to a stand from a walk, and walking off: two movements that join a walk and standing.
+//! Coming to a stand from a walk, walking off, and steps on the spot: movements from or to standing.
 //!
 //! A stop begins in a walk, at the instant at which the left foot has left the ground. The left foot makes a step, the
 //! right foot comes beside it, and the figure stands still. A start begins where a stop ends, in standing. The
 //! load moves to the right foot, the left foot makes a short step, the right foot a longer one, and the next step of
-//! the left foot belongs to the walk. The motion between these postures minimises the cost of muscles, as in other
+//! the left foot belongs to the walk. Steps on the spot begin and end in standing: the left foot is lifted and set
+//! down, then the right one. The motion between these postures minimises the cost of muscles, as in other
 //! movements. The first guess is a mean of the walk and the posture of standing, in which the loaded foot stays where
 //! it was set down.
 //!
@@ -67,9 +68,10 @@ const APART: [f64; 2] = [0.02, 0.3];
 struct Outline {
     /// Phase at which the movement begins, and at which it ends, as long as it lasts in the walk.
     phases: [f64; 2],
-    /// The end at which it is the walk: 0 for a stop, 1 for a start.
-    walks: usize,
-    /// Phases between which the first guess changes between the walk and standing.
+    /// The end at which it is the walk: 0 for a stop, 1 for a start; none for steps on the spot.
+    walks: Option<usize>,
+    /// Phases between which the first guess changes between the walk and standing; of steps on the spot, phases between
+    /// which it has a share of the walk.
     changes: [f64; 2],
     /// Phases between which a foot is lifted.
     swings: &'static [(Side, [f64; 2])],
@@ -79,25 +81,39 @@ struct Outline {
 
 const STOP: Outline = Outline {
     phases: [0.15, 1.4],
-    walks: 0,
+    walks: Some(0),
     changes: [0.15, 1.0],
     swings: &[(Side::Left, [0.22, 0.44]), (Side::Right, [0.7, 0.9])],
     stances: &[(Side::Right, 0.15), (Side::Left, 0.5)],
 };
 const START: Outline = Outline {
     phases: [-1.33, 0.42],
-    walks: 1,
+    walks: Some(1),
     changes: [-1.05, -0.25],
     swings: &[(Side::Left, [-0.82, -0.56]), (Side::Right, [-0.32, -0.06]), (Side::Left, [0.18, 0.42])],
     stances: &[(Side::Right, -1.33), (Side::Left, -0.5), (Side::Right, 0.0)],
 };
+/// Steps on the spot. Phases are those at which the walk lifts the same feet, as far as its first guess needs them.
+const STEPS: Outline = Outline {
+    phases: [-0.2, 1.25],
+    walks: None,
+    changes: [-0.1, 1.15],
+    swings: &[(Side::Left, [0.16, 0.40]), (Side::Right, [0.62, 0.86])],
+    stances: &[(Side::Right, -0.2), (Side::Left, 0.5)],
+};
+const STEPS_NAME: &str = "movement of steps on the spot";
+/// Largest share of the walk in the first guess of steps on the spot.
+const MOST_WALK: f64 = 0.5;
 /// Phases in which the first step of a start has ended and its foot stands.
 const FIRST_STEP: [f64; 2] = [-0.48, -0.3];
 
 impl Outline {
     /// The phase at which the movement is the walk.
     const fn joins(&self) -> f64 {
-        self.phases[self.walks]
+        match self.walks {
+            Some(1) => self.phases[1],
+            _ => self.phases[0],
+        }
     }
 
     /// Share of standing in the first guess at a phase.
@@ -105,7 +121,11 @@ impl Outline {
         let [from, to] = self.changes;
         let share = ((phase - from) / (to - from)).clamp(0.0, 1.0);
         let smooth = share.powi(3) * (10.0 - share * (15.0 - 6.0 * share));
-        if self.walks == 0 { smooth } else { 1.0 - smooth }
+        match self.walks {
+            Some(0) => smooth,
+            Some(_) => 1.0 - smooth,
+            None => 1.0 - 4.0 * MOST_WALK * share * (1.0 - share),
+        }
     }
 
     fn stance(&self, phase: f64) -> Side {
@@ -114,13 +134,16 @@ impl Outline {
     }
 }
 
-/// A stop and a start.
+/// A stop, a start and steps on the spot.
 #[derive(Debug, Clone)]
 pub struct StandingMovements {
     /// Movement from the walk to standing.
     pub stop: Solution,
     /// Movement from the posture in which the stop ends to the walk.
     pub start: Solution,
+    /// Movement from this posture to it: the left foot steps on the spot, then the right one. None in the plane, where
+    /// no foot can be lifted without leaning to the side.
+    pub steps: Option<Solution>,
 }
 
 impl StandingMovements {
@@ -133,7 +156,7 @@ impl StandingMovements {
         STOPPING_SPEED * (human.model.gravity().norm() * human.dimensions.leg_length).sqrt()
     }
 
-    /// The movements of a figure between a walk and standing. The walk must be slow, as at
+    /// The movements of a figure between a walk and standing, and on the spot. The walk must be slow, as at
     /// [`StandingMovements::speed`].
     ///
     /// # Errors
@@ -144,18 +167,24 @@ impl StandingMovements {
             match solution.unbalanced(NO_ROOT_FORCE) {
                 Some(unbalanced) => Err(OptimalWalkError::NoMovement { movement, speed, unbalanced }),
                 None if hops(&solution) => Err(OptimalWalkError::Hops { movement, speed }),
-                None if misses(&solution, walk, movement == "start") => {
+                None if movement != STEPS_NAME && misses(&solution, walk, movement == "start") => {
                     Err(OptimalWalkError::Misses { movement, speed })
                 }
                 None => Ok(solution),
             }
         };
-        let stop = checked("stop", joining(human, walk, None)?.solve_near_guess()?)?;
+        let stop = checked("stop", joining(human, walk, &STOP, None)?.solve_near_guess()?)?;
         let empty = || vec![0.0; human.model.coordinates().len()];
         let mut standing = [empty(), empty(), empty()];
         stop.write(stop.problem().duration_s, &mut standing);
-        let start = checked("start", joining(human, walk, Some(&standing[0]))?.solve_near_guess()?)?;
-        Ok(StandingMovements { stop, start })
+        let start = checked("start", joining(human, walk, &START, Some(&standing[0]))?.solve_near_guess()?)?;
+        let steps = if human.model.anatomy().coordinate(Movement::PelvisRight, None).is_some() {
+            let steps = joining(human, walk, &STEPS, Some(&standing[0]))?.solve_near_guess()?;
+            Some(checked(STEPS_NAME, steps)?)
+        } else {
+            None
+        };
+        Ok(StandingMovements { stop, start, steps })
     }
 
     /// Whether the stop begins in a walk, and the start ends in it.
@@ -187,9 +216,13 @@ fn hops(solution: &Solution) -> bool {
     least < CARRIED * solution.problem().weight_n()
 }
 
-/// The problem of a stop; with the posture of standing, of a start from it.
-fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<MovementProblem, CurvedJointError> {
-    let outline = if standing.is_some() { &START } else { &STOP };
+/// The problem of a stop; with the posture of standing, of a movement from it.
+fn joining(
+    human: &Human,
+    walk: &Solution,
+    outline: &Outline,
+    standing: Option<&[f64]>,
+) -> Result<MovementProblem, CurvedJointError> {
     let (like, cycle_s) = (walk.problem(), walk.cycle_s());
     let [begins, ends] = outline.phases;
     let duration_s = (ends - begins) * cycle_s;
@@ -207,14 +240,19 @@ fn joining(human: &Human, walk: &Solution, standing: Option<&[f64]>) -> Result<M
     let guess = first_guess(&problem, walk, outline, &rest)?;
     let costs = EffortCosts { pelvis: PELVIS, ..EffortCosts::default() };
     let last = problem.instants() - 1;
-    let [in_walk, at_rest] = if outline.walks == 0 { [0, last] } else { [last, 0] };
-    // The walk determines the height of the pelvis, but not the distance travelled.
-    let [mut walked, rates, _] = walk.instant(outline.joins() * cycle_s).posture;
+    let [in_walk, at_rest] = if outline.walks == Some(0) { [0, last] } else { [last, 0] };
+    let still = vec![0.0; like.model.coordinates().len()];
     let forward = like.model.anatomy().coordinate(Movement::PelvisForward, None);
-    if let Some((forward, _)) = forward {
-        walked[forward.index()] = guess[in_walk][forward.index()];
-    }
-    let still = vec![0.0; rates.len()];
+    let [walked, rates] = if outline.walks.is_some() {
+        // The walk determines the height of the pelvis, but not the distance travelled.
+        let [mut walked, rates, _] = walk.instant(outline.joins() * cycle_s).posture;
+        if let Some((forward, _)) = forward {
+            walked[forward.index()] = guess[in_walk][forward.index()];
+        }
+        [walked, rates]
+    } else {
+        [guess[at_rest].clone(), still.clone()]
+    };
     let nearness = if standing.is_some() { Nearness::All } else { Nearness::Joints(SIDE_BY_SIDE) };
     let rested = ((RESTS * last as f64) as usize).max(1);
     let resting = if standing.is_some() { at_rest..at_rest + 1 } else { at_rest + 1 - rested..at_rest + 1 };
@@ -255,11 +293,11 @@ fn require(
         }
         movement.require(all, Quantity::Height(sphere), Bound::AtMost, highest, deviation);
     }
-    if let Some((forward, sign, place)) = at_rest_m.filter(|_| outline.walks == 1) {
+    if let Some((forward, sign, place)) = at_rest_m.filter(|_| outline.walks == Some(1)) {
         let [back, deviation] = BACK.map(|share| share * like.length_m);
         movement.require(all, Quantity::Position(vec![(forward, sign)]), Bound::AtLeast, place - back, deviation);
     }
-    for (sphere, _, place) in heels.iter().filter(|(_, side, _)| outline.walks == 1 && *side == Side::Left) {
+    for (sphere, _, place) in heels.iter().filter(|(_, side, _)| outline.walks == Some(1) && *side == Side::Left) {
         let span = FIRST_STEP.map(|phase| (phase - outline.phases[0]) * cycle_s);
         let step_m = 0.5 * walk.speed() * cycle_s;
         for (bound, share) in [Bound::AtLeast, Bound::AtMost].into_iter().zip(FIRST_STEP_SHARES) {
