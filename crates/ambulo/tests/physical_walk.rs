@@ -457,7 +457,7 @@ fn a_controller_without_standing_cannot_stop() {
 fn movements_that_do_not_join_the_walk_are_refused() {
     let Case { human, walk, controller } = &*LEVEL;
     let walk = walk.solution();
-    let of_another = StandingMovements { stop: walk.clone(), start: walk.clone() };
+    let of_another = StandingMovements { stop: walk.clone(), start: walk.clone(), steps: None };
     let settings = ControlSettings::default();
     let error = controller.clone().with_movements(human, walk, &of_another, StepSettings::default(), &settings);
     assert!(matches!(error, Err(ControlError::Movements { speed }) if (speed - 1.25).abs() < 1e-9));
@@ -688,8 +688,8 @@ impl Spatial {
     }
 
     fn without_recovery_steps(&self) -> PhysicalWalk {
-        let alone = ControlSettings { recovery_steps: false, ..ControlSettings::default() };
-        PhysicalWalk::new(&self.human, &self.plan, StepSettings::default(), &alone).unwrap()
+        let alone = self.controller.clone().without_recovery_steps();
+        PhysicalWalk::with(&self.human, &self.plan, StepSettings::default(), alone).unwrap()
     }
 }
 
@@ -714,6 +714,69 @@ fn nothing_is_planned_again_while_a_figure_walks_undisturbed() {
         }
         let [with, without] = [0, 1].map(|k| walks[k].coordinates());
         assert_eq!(with, without);
+    }
+}
+
+/// Standing after a stop from a slow walk, and the same by feedback alone.
+static STANDING: LazyLock<[PhysicalWalk; 2]> = LazyLock::new(|| {
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&SPATIAL.human)));
+    let leg_length = MAN.human().unwrap().dimensions.leg_length;
+    let walk = Walk::new(&gait, leg_length, &mut Findings::default()).unwrap();
+    let found = OptimalWalk::find(&MAN, &walk).unwrap();
+    let (human, plan, step) = (found.figure(), &found.solution, StepSettings::default());
+    let (settings, movements) = (ControlSettings::default(), StandingMovements::find(&human, plan).unwrap());
+    let own = WalkController::new(&human, plan, step, &settings).unwrap();
+    let own = own.with_movements(&human, plan, &movements, step, &settings).unwrap();
+    [own.clone(), own.without_recovery_steps()].map(|controller| {
+        let mut walk = PhysicalWalk::with(&human, plan, step, controller).unwrap();
+        walk.set_speed(0.0).unwrap();
+        walk.walk_until(6.0).unwrap();
+        assert!(walk.controller().is_standing());
+        walk
+    })
+});
+
+/// A figure after a push of its trunk for 0.2 s, forward and to the right [N], some seconds later.
+fn pushed_in_standing(walk: &PhysicalWalk, [x, z]: [f64; 2]) -> PhysicalWalk {
+    let mut walk = walk.clone();
+    let trunk = SPATIAL.human.model.body("torso").unwrap().index();
+    walk.world_mut().bodies[trunk].load = Wrench { moment: Vec3::zeros(), force: Vec3::new(x, 0.0, z) };
+    walk.walk_until(6.2).unwrap();
+    walk.world_mut().bodies[trunk].load = Wrench::ZERO;
+    walk.walk_until(11.0).unwrap();
+    walk
+}
+
+#[test]
+fn a_figure_that_stands_steps_to_keep_its_balance_and_stands_again() {
+    let [steps, alone] = &*STANDING;
+    let places = ["pelvis_tx", "pelvis_tz"].map(|name| SPATIAL.index(name));
+    for force in [[0.0, 100.0], [-71.0, -71.0], [150.0, 0.0], [106.0, -106.0]] {
+        let after = pushed_in_standing(steps, force);
+        let [q, before] = [&after, steps].map(PhysicalWalk::coordinates);
+        let [forward, right] = places.map(|c| q[c][0] - before[c][0]);
+        let strikes = after.controller().strikes() - steps.controller().strikes();
+        println!("{force:?} N: {strikes} steps, {forward:.2} m forward, {right:.2} m to the right");
+        assert!(after.fall().is_none() && after.controller().is_standing(), "{force:?}: {:?}", after.fall());
+        assert!(places.iter().all(|&c| q[c][1].abs() < 0.02) && (1..8).contains(&strikes), "{force:?}: {q:?}");
+        assert!(pushed_in_standing(alone, force).fall().is_some(), "{force:?} by feedback alone");
+        // It walks off from where it came to stand.
+        let mut off = after;
+        off.set_speed(off.controller().speeds()[0]).unwrap();
+        off.walk_until(17.0).unwrap();
+        let walked = off.coordinates()[places[0]][0] - q[places[0]][0];
+        assert!(off.fall().is_none() && walked > 2.0, "{force:?}: {:?}, {walked} m", off.fall());
+    }
+    assert!(pushed_in_standing(steps, [0.0, 600.0]).fall().is_some());
+}
+
+/// Pushes that feedback alone can take change nothing either.
+#[test]
+fn a_figure_that_stands_undisturbed_or_is_pushed_a_little_makes_no_step() {
+    for force in [[0.0; 2], [50.0, 0.0], [-50.0, 0.0]] {
+        let [with, alone] = STANDING.each_ref().map(|walk| pushed_in_standing(walk, force));
+        assert_eq!(with.coordinates(), alone.coordinates(), "{force:?}");
     }
 }
 

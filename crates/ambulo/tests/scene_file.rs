@@ -184,6 +184,7 @@ fn the_examples_are_scenes() {
         ("pendulum", [1, 0, 1, 0, 0]),
         ("pile", [10, 5, 0, 0, 0]),
         ("pushed-from-four-sides", [4, 1, 4, 0, 0]),
+        ("pushed-in-standing", [1, 1, 1, 0, 0]),
         ("pushed-walker", [1, 1, 1, 0, 0]),
         ("pusher", [3, 2, 2, 0, 0]),
         ("rising-ground", [0, 1, 0, 0, 0]),

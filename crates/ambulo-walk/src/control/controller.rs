@@ -31,6 +31,7 @@ use super::recovery::Recovery;
 use super::riccati::StepMap;
 use super::settings::{Balance, ControlError, ControlSettings};
 use super::standing::{Maker, Stage};
+use super::trials::{Course, Trials};
 use super::walk_plan::{Body, SPEED_ROUNDING, WalkPlan};
 use crate::engine::{Motor, StepSettings};
 use crate::findings::Findings;
@@ -203,6 +204,13 @@ impl WalkController {
         Ok(self)
     }
 
+    /// The same controller by feedback alone: after a strong push no step is planned again, and none made out of
+    /// standing.
+    #[must_use]
+    pub fn without_recovery_steps(self) -> WalkController {
+        WalkController { recovery: None, ..self }
+    }
+
     /// Starts in standing, if it can stand.
     #[must_use]
     pub(crate) fn starting_at_rest(mut self) -> WalkController {
@@ -327,19 +335,49 @@ impl WalkController {
         motors
     }
 
-    /// Plans the step under way again after a strong push.
+    /// Plans the step under way again after a strong push, or a step out of standing.
     fn plan_recovery(&mut self, sensed: Sensed<'_>) {
-        if let Some(mut recovery) = self.recovery.take_if(|_| self.phase.at.stage == Stage::Walking) {
-            let trial = |recovery, world, ahead_s| self.trial(recovery, world, ahead_s, sensed);
-            recovery.plan(self.phase.time_s, || self.cost_to_go(sensed.now), trial);
-            self.recovery = Some(recovery);
+        let Some(mut recovery) = self.recovery.take() else { return };
+        if let Some(world) = recovery.due(self.phase.time_s) {
+            let trial = |course, ahead_s| {
+                let own = self.on_course(course, recovery.clone(), sensed);
+                own.trial(FigureWorld::clone(&world), ahead_s, sensed)
+            };
+            let trials = Trials {
+                present: Course { at: self.phase.at, change: recovery.change() },
+                steps: self.plan.standing.as_ref().and_then(|standing| standing.stepping()),
+                cost_to_go: &|| self.cost_to_go(sensed.now),
+                trial: &trial,
+            };
+            let (chosen, wait_s) = trials.chosen();
+            recovery.tried(world, self.phase.time_s + wait_s);
+            if let Some(course) = chosen {
+                self.take(course, &mut recovery, sensed);
+            }
         }
+        self.recovery = Some(recovery);
     }
 
-    /// Simulates the figure with other recovery steps for a time [s], in a world of its own whose level ground is where
+    /// The same controller that takes a course, with the recovery steps of a trial.
+    fn on_course(&self, course: Course, mut recovery: Recovery, sensed: Sensed<'_>) -> WalkController {
+        let mut own = self.clone();
+        own.take(course, &mut recovery, sensed);
+        own.recovery = Some(recovery);
+        own
+    }
+
+    fn take(&mut self, Course { at, change }: Course, recovery: &mut Recovery, sensed: Sensed<'_>) {
+        if at != self.phase.at {
+            self.phase.go_to(at, &self.plan, sensed);
+            recovery.set_foot(self.plan.next_foot(at));
+        }
+        recovery.set_change(change);
+    }
+
+    /// Simulates the figure with this controller for a time [s], in a world of its own whose level ground is where
     /// it stands: the cost-to-go at the end, or the share of the time at which it fell.
-    fn trial(&self, recovery: Recovery, mut world: FigureWorld, ahead_s: f64, sensed: Sensed<'_>) -> Result<f64, f64> {
-        let mut own = WalkController { recovery: Some(recovery), ..self.clone() };
+    fn trial(mut self, mut world: FigureWorld, ahead_s: f64, sensed: Sensed<'_>) -> Result<f64, f64> {
+        let own = &mut self;
         let [mut q, qd]: [Vec<f64>; 2] = [0, 1].map(|k| sensed.now.iter().map(|now| now[k]).collect());
         q[own.plan.root().up] -= own.phase.level_m;
         own.phase.level_m = 0.0;
@@ -363,7 +401,7 @@ impl WalkController {
     fn cost_to_go(&self, now: &[[f64; 2]]) -> f64 {
         let (plan, phase) = (&self.plan, &self.phase);
         let apart = self.feedback.deviation(plan, phase, &plan.step(phase.at), now);
-        plan.between().cost_to_go(phase.at.share, &apart).unwrap_or(f64::NAN)
+        plan.cost_to_go(phase.at, &apart).unwrap_or(f64::NAN)
     }
 
     /// The fall, once the pelvis was lower than 0.7 of its first height over the ground. Then joints are only damped.

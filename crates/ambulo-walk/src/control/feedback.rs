@@ -16,6 +16,7 @@
 //! | `lever_m` | c L | m | share c of the length L of the foot |
 //! | `loads_n` | F | N | vertical force on the foot |
 //! | `higher` | | m | height of the ground, and what longer legs add to the height of the pelvis |
+//! | `Phase::aside_m` | | m | how far aside the figure has stepped out of standing |
 //!
 //! Pinned by: tests/physical_walk.rs.
 
@@ -23,7 +24,7 @@ use super::activation::left_over;
 use super::foot_placement::{Followed, PlacedFeet};
 use super::linear::Impedance;
 use super::phase::{Phase, Sensed};
-use super::plan::PlannedStep;
+use super::plan::{PlannedStep, Root};
 use super::riccati::StepMap;
 use super::settings::{Balance, ControlError, ControlSettings};
 use super::standing::Moment;
@@ -150,9 +151,14 @@ impl Feedback {
         planned: &PlannedStep,
         now: &[[f64; 2]],
     ) -> DVector<f64> {
-        let up = plan.root().up;
+        let &Root { up, sideways, .. } = plan.root();
         let higher = phase.level_m + (plan.height_ratio - 1.0) * planned.state[0][up];
-        let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - if c == up { higher } else { 0.0 });
+        let elsewhere = |c: usize| match c {
+            c if c == up => higher,
+            c if Some(c) == sideways => phase.aside_m,
+            _ => 0.0,
+        };
+        let places = self.places.iter().map(|&c| now[c][0] - planned.state[0][c] - elsewhere(c));
         let rates = (0..now.len()).map(|c| now[c][1] - planned.state[1][c]);
         let torques = self.joints.iter().filter(|_| self.left.is_some()).map(|joint| self.acting[*joint]);
         DVector::from_vec(places.chain(rates).chain(torques).collect())

@@ -44,6 +44,7 @@ pub(crate) mod riccati;
 mod schedule;
 mod settings;
 mod standing;
+mod trials;
 mod walk_plan;
 mod walk_recorder;
 

@@ -12,6 +12,8 @@
 //! | `level_m` | ℓ | m | height of the ground on which the figure stands |
 //! | `Body::lowest`, `soles_m` | s, s* | m | height of the sole at the strike, now and in the plan |
 //!
+//! A step out of standing moves the plan sideways, to where the feet are: `aside_m` is the mean distance of the feet
+//! that stand from their planned places.
 //! A foot strikes above 5 % of the body weight and swings below 0.2 %.
 //! Source: phase reset at foot strike as in Aoi, Tsuchiya 2005 (unverified).
 //! Pinned by: tests/physical_walk.rs.
@@ -52,6 +54,8 @@ pub(super) struct Phase {
     pub(super) strikes: usize,
     /// Height of the ground on which the figure stands [m].
     pub(super) level_m: f64,
+    /// How far to the right of its plan the figure stands [m].
+    pub(super) aside_m: f64,
     /// Time since it began [s].
     pub(super) time_s: f64,
     /// Time since each foot left the ground [s]; zero while it bears load.
@@ -71,6 +75,7 @@ impl Phase {
             stance: 0,
             strikes: 0,
             level_m: 0.0,
+            aside_m: 0.0,
             time_s: 0.0,
             swing_s: [0.0; 2],
             waited_s: 0.0,
@@ -91,6 +96,9 @@ impl Phase {
             if load > STRIKE * self.weight_n {
                 if self.swing_s[foot] > SHORTEST_SWING_S {
                     self.strikes += 1;
+                    if matches!(self.at.stage, Stage::Stepping(_)) {
+                        self.step_aside(plan, sensed);
+                    }
                     if self.at.stage == Stage::Walking {
                         self.strike(foot, plan);
                         let q: Vec<f64> = sensed.now.iter().map(|now| now[0]).collect();
@@ -102,6 +110,23 @@ impl Phase {
             } else if load < SWING * self.weight_n {
                 self.swing_s[foot] += self.step_s;
             }
+        }
+    }
+
+    /// Goes to another moment of the plan. A figure that stands or steps out of standing does so where it is.
+    pub(super) fn go_to(&mut self, at: Moment, plan: &WalkPlan, sensed: Sensed<'_>) {
+        self.at = at;
+        self.step_aside(plan, sensed);
+    }
+
+    /// The figure has put its feet elsewhere: its plan goes on there.
+    fn step_aside(&mut self, plan: &WalkPlan, sensed: Sensed<'_>) {
+        let q: Vec<f64> = sensed.now.iter().map(|now| now[0]).collect();
+        let [now, planned] = [&q, &plan.step(self.at).state[0]].map(|q| plan.body.aside(q));
+        let stands = |foot: &usize| !self.swings(*foot) || sensed.loads_n[*foot] > 0.0;
+        let moved: Vec<f64> = [0, 1].into_iter().filter(stands).map(|foot| now[foot] - planned[foot]).collect();
+        if !moved.is_empty() {
+            self.aside_m = moved.iter().sum::<f64>() / moved.len() as f64;
         }
     }
 
@@ -124,7 +149,12 @@ impl Phase {
     pub(super) fn advance(&mut self, plan: &WalkPlan, faster: f64) {
         self.time_s += self.step_s;
         if let Some(standing) = plan.standing.as_ref().filter(|_| self.at.stage != Stage::Walking) {
-            self.at.stage = standing.next(self.at.stage, self.stands);
+            // A faster step leaves out time steps.
+            let passed = |time_s: f64| ((1.0 + faster.max(0.0)) * (time_s / self.step_s).round() + 1e-9).floor();
+            let count = passed(self.time_s) - passed(self.time_s - self.step_s);
+            for _ in 0..count as usize {
+                self.at.stage = standing.next(self.at.stage, self.stands);
+            }
             self.at.share = self.at.joins(StandingMovements::JOINS[usize::from(self.at.stage == Stage::Walking)]);
             return;
         }

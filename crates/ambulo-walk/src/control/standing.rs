@@ -7,6 +7,7 @@
 use super::activation::activated;
 use super::figure::FigureWorld;
 use super::linear::Impedance;
+use super::pace::KEPT_EVERY;
 use super::plan::{CyclePlan, PlannedStep};
 use super::riccati::{Costs, StepMap};
 use super::settings::ControlError;
@@ -24,10 +25,12 @@ pub(super) enum Stage {
     Stopping(usize),
     Standing,
     Starting(usize),
+    /// Steps on the spot.
+    Stepping(usize),
 }
 
 /// A place in the plan.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moment {
     /// Share of the cycle φ, 0 to 1.
     pub(super) share: f64,
@@ -51,6 +54,8 @@ struct Movement {
     gains: Vec<DMatrix<f64>>,
     /// Empty where feedback acts at once.
     maps: Vec<StepMap>,
+    /// Matrix P of every tenth time step.
+    along: Vec<DMatrix<f64>>,
 }
 
 /// Standing, and how a figure comes there and walks off.
@@ -60,6 +65,8 @@ pub(super) struct Standing {
     /// One time step.
     stand: Movement,
     start: Movement,
+    /// Steps on the spot; none where the figure does not step to keep its balance.
+    steps: Option<Movement>,
     /// Height of the sole of the right and the left foot [m].
     pub(super) soles_m: [f64; 2],
     /// The mirror images of these movements, if the walk is its own mirror image.
@@ -112,6 +119,7 @@ impl Standing {
             Stage::Stopping(step) => Some((&self.stop, step)),
             Stage::Standing => Some((&self.stand, 0)),
             Stage::Starting(step) => Some((&self.start, step)),
+            Stage::Stepping(step) => Some((self.steps.as_ref()?, step)),
         }
     }
 
@@ -130,6 +138,19 @@ impl Standing {
             Some(image) => imaged(&(gain * imaged(apart, &image.state)), &image.joints),
             None => gain * apart,
         })
+    }
+
+    /// xᵀ P x of a deviation; none while it walks.
+    pub(super) fn cost_to_go(&self, at: Moment, apart: &DVector<f64>) -> Option<f64> {
+        let (movement, step) = self.at(at.stage)?;
+        let value = movement.along.get(step / KEPT_EVERY)?;
+        let apart = self.image(at).map_or_else(|| apart.clone(), |image| imaged(apart, &image.state));
+        Some(apart.dot(&(value * &apart)))
+    }
+
+    /// Time steps of steps on the spot.
+    pub(super) fn stepping(&self) -> Option<usize> {
+        self.steps.as_ref().map(|steps| steps.steps.len())
     }
 
     /// The deviation of the state after a time step; none while it walks.
@@ -155,7 +176,7 @@ impl Standing {
 
     /// Gains of all stages.
     pub(super) fn gains(&self) -> impl Iterator<Item = &DMatrix<f64>> {
-        [&self.stop, &self.stand, &self.start].into_iter().flat_map(|movement| &movement.gains)
+        [&self.stop, &self.stand, &self.start].into_iter().chain(&self.steps).flat_map(|movement| &movement.gains)
     }
 
     /// The stage after a time step.
@@ -166,6 +187,8 @@ impl Standing {
             Stage::Standing if !stands => Stage::Starting(0),
             Stage::Starting(step) if step + 1 < self.start.steps.len() => Stage::Starting(step + 1),
             Stage::Starting(_) => Stage::Walking,
+            Stage::Stepping(step) if Some(step + 1) < self.stepping() => Stage::Stepping(step + 1),
+            Stage::Stepping(_) => Stage::Standing,
             Stage::Standing | Stage::Walking => stage,
         }
     }
@@ -198,10 +221,13 @@ impl Maker<'_> {
         let maps = self.maps(&walk.with_steps(vec![stands.clone()]))?;
         let times = (AHEAD_S / self.figure.settings.step_s) as usize;
         let (gain, of_standing) = self.costs.repeated(&maps[0], times).ok_or(ControlError::Riccati)?;
-        let stand = Movement { gains: vec![gain], steps: vec![stands], maps: self.kept(maps) };
+        let along = vec![of_standing.clone()];
+        let stand = Movement { gains: vec![gain], steps: vec![stands], maps: self.kept(maps), along };
+        let steps = movements.steps.as_ref();
+        let steps = steps.map(|steps| self.movement(steps, walk, of_standing.clone())).transpose()?;
         let stop = self.movement(&movements.stop, walk, of_standing)?;
         let start = self.movement(&movements.start, walk, value.clone())?;
-        Ok(Standing { stop, stand, start, soles_m, image: Image::of(walk, self.left.is_some()) })
+        Ok(Standing { stop, stand, start, steps, soles_m, image: Image::of(walk, self.left.is_some()) })
     }
 
     /// A movement with the matrix P of the Riccati equation after it.
@@ -213,8 +239,15 @@ impl Maker<'_> {
     ) -> Result<Movement, ControlError> {
         let plan = walk.with_steps(CyclePlan::new(self.human, solution, self.figure.settings.step_s)?.steps);
         let maps = self.maps(&plan)?;
-        let gains = self.costs.gains(&maps, &mut value).ok_or(ControlError::Riccati)?;
-        Ok(Movement { steps: plan.steps, gains, maps: self.kept(maps) })
+        let mut along = Vec::new();
+        let keep = |number: usize, value: &DMatrix<f64>| {
+            if number.is_multiple_of(KEPT_EVERY) {
+                along.push(value.clone());
+            }
+        };
+        let gains = self.costs.gains_with(&maps, &mut value, keep).ok_or(ControlError::Riccati)?;
+        along.reverse();
+        Ok(Movement { steps: plan.steps, gains, maps: self.kept(maps), along })
     }
 
     fn maps(&mut self, plan: &CyclePlan) -> Result<Vec<StepMap>, ControlError> {

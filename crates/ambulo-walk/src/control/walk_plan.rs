@@ -31,6 +31,9 @@ use std::sync::Arc;
 /// Speeds that differ by less are the same [m/s].
 pub(super) const SPEED_ROUNDING: f64 = 1e-6;
 
+/// Share of steps on the spot after which the first foot has struck.
+pub(super) const FIRST_DOWN: f64 = 0.5;
+
 /// The figure, as far as heights of its soles depend on it.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
@@ -49,6 +52,18 @@ impl Body {
         let still = vec![0.0; q.len()];
         let motions = body_motion(&self.model, Posture { q, qd: &still, qdd: &still });
         Side::BOTH.map(|side| lowest(self.soles.iter().filter(|sole| sole.side == side), &motions))
+    }
+
+    /// Place to the right of the right and the left foot [m].
+    pub(super) fn aside(&self, q: &[f64]) -> [f64; 2] {
+        let still = vec![0.0; q.len()];
+        let motions = body_motion(&self.model, Posture { q, qd: &still, qdd: &still });
+        Side::BOTH.map(|side| {
+            let of_foot = self.soles.iter().filter(|sole| sole.side == side);
+            let places = of_foot.map(|sole| motions[sole.body.index()].pose.place(sole.center).z);
+            let (sum, count) = places.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
+            sum / count
+        })
     }
 }
 
@@ -107,6 +122,24 @@ impl WalkPlan {
     pub(super) fn feedback(&self, at: Moment, deviation: &DVector<f64>) -> Option<DVector<f64>> {
         let of_standing = self.standing.as_ref().and_then(|standing| standing.feedback(at, deviation));
         of_standing.or_else(|| self.between().feedback(at.share, deviation))
+    }
+
+    /// xᵀ P x of a deviation of the state; none where P is not kept.
+    pub(super) fn cost_to_go(&self, at: Moment, deviation: &DVector<f64>) -> Option<f64> {
+        let of_standing = self.standing.as_ref().and_then(|standing| standing.cost_to_go(at, deviation));
+        of_standing.or_else(|| self.between().cost_to_go(at.share, deviation))
+    }
+
+    /// The foot that strikes next: 0 right, 1 left.
+    pub(super) fn next_foot(&self, at: Moment) -> usize {
+        let stepping = self.standing.as_ref().and_then(|standing| standing.stepping());
+        match (at.stage, stepping) {
+            (Stage::Stepping(step), Some(count)) => {
+                let is_first = (step as f64) < FIRST_DOWN * count as f64;
+                usize::from(is_first != at.is_mirrored)
+            }
+            _ => self.between().next_foot(at.share),
+        }
     }
 
     /// The deviation of the state after a time step with feedback torques of the joints [N.m]; none without maps.
