@@ -87,6 +87,7 @@ usage: cargo xtask <command>
   physical-peers    let the controller of a walk drive the figure in MuJoCo, and record the outcomes  [--env DIR]
                     [--write: docs/measured/PHYSICAL_PEERS.md from the record]
   physical-walk     figures that walk by their own torques: pushes, uneven ground  [--write: docs/measured/PHYSICAL_WALK.md]
+  standing          figures that stop, stand, step when they are pushed, and walk off  [--write: docs/measured/STANDING.md]
   walk-bands        compare dynamically consistent walks with normative bands  [--write: docs/measured/WALK_BANDS.md and its picture]
   help              print this text
 

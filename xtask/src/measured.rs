@@ -39,7 +39,7 @@ enum Numbers {
     Times,
 }
 
-const PAGES: [Page; 12] = [
+const PAGES: [Page; 13] = [
     Page { name: "VALIDATION", command: "validate", numbers: Numbers::Results },
     Page { name: "PEOPLE", command: "validate-people", numbers: Numbers::Results },
     Page { name: "GROUND_FIT", command: "fit-ground", numbers: Numbers::Results },
@@ -47,6 +47,7 @@ const PAGES: [Page; 12] = [
     Page { name: "OPTIMAL_WALK", command: "optimal-walk", numbers: Numbers::Results },
     Page { name: "REPRODUCTION", command: "reproduction", numbers: Numbers::Results },
     Page { name: "PHYSICAL_WALK", command: "physical-walk", numbers: Numbers::Results },
+    Page { name: "STANDING", command: "standing", numbers: Numbers::Results },
     Page { name: "BENCHMARKS", command: "bench-simulation", numbers: Numbers::Times },
     Page { name: "BENCHMARKS_MARKERS", command: "bench-markers", numbers: Numbers::Times },
     Page {

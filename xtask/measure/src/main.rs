@@ -59,6 +59,7 @@ fn main() -> ExitCode {
         ("optimal-walk", _) => optimal_walk::run(rest),
         ("physical-peers", _) => physical_peers::run(rest),
         ("physical-walk", _) => physical_walk::run(rest),
+        ("standing", _) => physical_walk::run_standing(rest),
         _ => {
             eprintln!("error: unknown command `{}`\nhint: `cargo xtask help` lists the commands", words.join(" "));
             return ExitCode::from(MISUSED);

@@ -1,4 +1,5 @@
-//! Figures that walk by their own torques: `cargo xtask physical-walk [--write]`.
+//! Figures that walk by their own torques: `cargo xtask physical-walk [--write]`, and stand: `cargo xtask standing
+//! [--write]`, whose page is docs/measured/STANDING.md.
 //!
 //! One man, his plan at free speed and the gains of that plan walk for a thousand steps, are pushed, and walk on uneven
 //! and on inclined ground, with another mass and other legs; then plans of other speeds and other figures. With
@@ -111,7 +112,6 @@ struct Results {
     /// Delay of feedback [s], the walk, and pushes as above.
     delays: Vec<([f64; 2], Walked, usize)>,
     placement: placement::Results,
-    stands: Vec<standing::Stands>,
     /// The same man in three dimensions.
     spatial: spatial::Results,
 }
@@ -143,6 +143,15 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
         workspace::save("docs/images/physical_walk.svg", &figure::svg(&results)?)?;
     }
     Ok(())
+}
+
+/// Runs the command for standing.
+#[expect(clippy::print_stdout, reason = "the page is the command's result")]
+pub(crate) fn run_standing(words: &[String]) -> Result<(), String> {
+    let write = workspace::write_option(words)?;
+    let page = standing::page(&standing::measure(&ControlSettings::default())?);
+    println!("{page}");
+    if write { workspace::save("docs/measured/STANDING.md", &page) } else { Ok(()) }
 }
 
 fn measure() -> Result<Results, String> {
@@ -192,7 +201,6 @@ fn measure() -> Result<Results, String> {
         tuned: with_tuned_gains(&man, &paces)?,
         delays: with_delays(&man, &settings)?,
         placement: placement::measure(&man, &settings)?,
-        stands: standing::measure(&settings)?,
         spatial: spatial::measure(&settings)?,
     })
 }

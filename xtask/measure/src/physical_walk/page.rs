@@ -1,7 +1,7 @@
 //! The page of walks by own torques.
 
+use super::spatial;
 use super::{AFTER_PUSH, HOLD_S, LIFT, PHASES, PUSH_S, RAMP_S, Results, SEEDS, SPEED, TILE, Tuned, Walked};
-use super::{spatial, standing};
 use ambulo::study::validation::TextTable as Table;
 use std::fmt::Write;
 
@@ -27,7 +27,6 @@ pub(super) fn text(results: &Results) -> String {
     page += &main_table(results);
     page += &pushes(results);
     page += &others(results);
-    page += &standing::section(&results.stands);
     page += &tuned(&results.tuned);
     page += &delays(results);
     page += &results.placement.section();

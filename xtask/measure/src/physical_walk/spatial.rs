@@ -166,7 +166,7 @@ pub(super) fn figure(speed: f64, lift_m: f64) -> Result<Figure, String> {
     figure_of(&MAN, speed, lift_m)
 }
 
-fn figure_of(build: &Build, speed: f64, lift_m: f64) -> Result<Figure, String> {
+pub(super) fn figure_of(build: &Build, speed: f64, lift_m: f64) -> Result<Figure, String> {
     let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
     gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     let planar = build.human().map_err(|e| e.to_string())?;
