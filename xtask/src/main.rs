@@ -116,7 +116,7 @@ const OWN: [&str; 14] = [
 ];
 
 /// Commands of the crate `xtask-measure`.
-const MEASUREMENTS: [&str; 22] = [
+const MEASUREMENTS: [&str; 23] = [
     "bench",
     "bench-markers",
     "bench-simulation",
@@ -137,6 +137,7 @@ const MEASUREMENTS: [&str; 22] = [
     "optimal-walk",
     "physical-peers",
     "physical-walk",
+    "standing",
     "walk-plans",
     "walk-bands",
 ];
