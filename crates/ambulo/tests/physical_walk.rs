@@ -831,7 +831,7 @@ fn a_figure_of_a_scene_that_is_pushed_in_standing_steps_aside() {
     let place = |scene: &Scene| scene.state().poses[pelvis].translation.z;
     let (before, mut findings) = (place(&scene), Findings::default());
     scene.run(&mut findings, |_| ()).unwrap();
-    let aside = before - place(&scene);
+    let aside = place(&scene) - before;
     assert!(!findings.has(Code::FigureFell) && (0.1..0.8).contains(&aside), "{aside} m, {findings:?}");
     let verdict = verdict(&scene);
     assert_eq!(verdict.state, VerdictState::Feasible);
