@@ -1,13 +1,13 @@
 //! Recovery steps: how the step under way, or a step out of standing, is changed after a strong push.
 //!
-//! The swinging hip abducts and flexes further, and the plan is passed faster. What is changed is chosen by trial in
-//! the simulator ([`super::trials`]) and followed until the foot strikes, or the figure begins to stop.
+//! The swinging hip abducts and flexes further, and the step takes less time. The change is chosen by trial in the
+//! simulator ([`super::trials`]) and kept until the foot strikes, or the figure begins to stop.
 //!
 //! | code | symbol | unit | meaning |
 //! |---|---|---|---|
 //! | `StepChange::adduction` | α | rad | further adduction of the swinging hip |
 //! | `StepChange::flexion` | β | rad | further flexion of the swinging hip |
-//! | `StepChange::faster` | f | 1 | the plan is passed 1 + f times as fast |
+//! | `StepChange::faster` | f | 1 | the phase advances 1 + f times as fast |
 //! | `COSTS` | w_a, w_f | 1/rad², 1 | costs of a change, small beside those of a deviation |
 //!
 //! Swing legs move to a change at 2.5 rad/s and back to the plan at the same rate once the foot has struck.

@@ -21,7 +21,8 @@ pub struct ControlSettings {
     /// Time constant with which torques of feedback follow their command [s], as muscle forces follow activation; 0: at
     /// once.
     pub activation_s: f64,
-    /// Whether a figure in three dimensions plans its step again after a strong push, by trial in the simulator.
+    /// Whether a figure in three dimensions plans its step again after a strong push, and steps out of standing to keep
+    /// its balance, by trial in the simulator.
     pub recovery_steps: bool,
     /// Torques along the plan.
     pub torques: TorqueCurves,

@@ -1,4 +1,4 @@
-//! What a figure in three dimensions does after a strong push, chosen by trial in the simulator.
+//! How a figure in three dimensions answers a strong push: it tries in the simulator what it may do.
 //!
 //! Each candidate is simulated for a time T with the feedback of the plan, in a world of the figure alone on level
 //! ground, and the one with the least cost is followed,
@@ -12,13 +12,13 @@
 //! | `WORTH_IT` | | 1 | pushes of 100 N for 0.2 s cost 1 to 4 in walking, of 150 N 3 to 15 |
 //! | `AHEAD_S` | T | s | in walking, standing and stepping |
 //!
-//! In walking, while the deviation costs more than 2, the change of the step under way is chosen every 0.15 s. In
-//! standing, once the deviation costs more than 1, the figure looks ahead every 0.05 s whether it would fall. If so, it
-//! steps: it enters its steps on the spot (left foot, then right foot, to standing with the feet side by side) at one
-//! of six moments before the first foot is down, or their mirror image, and the change of that step is chosen. While it
-//! steps, the change is chosen again every 0.1 s, and all of this if the figure would fall nevertheless. In level
-//! walking and quiet standing, and after pushes that feedback alone can take, the figure does what it did without
-//! trials.
+//! In walking, while the deviation costs more than 2, the change of the step under way is chosen every 0.15 s, unless
+//! without another change the cost is at most 2 after the trial. In standing, once the deviation costs more than 1, the
+//! figure looks ahead every 0.05 s whether it would fall. If so, it steps: it enters its steps on the spot (left foot,
+//! then right foot, to standing with the feet side by side) at one of six moments before the first foot is down, or
+//! their mirror image, and the change of that step is chosen. While it steps, the change is chosen again every 0.1 s,
+//! and all of this if the figure would fall nevertheless. In level walking, in quiet standing, and after pushes in
+//! standing that feedback alone can take, nothing changes.
 //!
 //! Source: foot placement after the predicted state as in Yin, Loken, van de Panne 2007 (unverified), but chosen by
 //! prediction instead of a linear law. Pinned by: tests/physical_walk.rs.
@@ -55,7 +55,7 @@ struct Times {
     stepping: f64,
 }
 
-/// What a figure may do from now on.
+/// A moment of the plan to go on from, and a change of the step there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Course {
     pub(super) at: Moment,
