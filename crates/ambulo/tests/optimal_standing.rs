@@ -42,7 +42,8 @@ fn apart(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3], forward: usize) -> [f64; 2] {
 fn a_slow_walk_is_stopped_and_begun_without_outside_forces() {
     let human = full_body(&Build::usual(SegmentTable::DeLevaMale)).unwrap();
     let walk = walk(&human, StandingMovements::speed(&human));
-    let StandingMovements { stop, start, steps } = StandingMovements::find(&human, &walk).unwrap();
+    let StandingMovements { stop, start, steps } =
+        StandingMovements::find(&human, &walk).and_then(|found| found.with_steps(&human, &walk)).unwrap();
     let (forward, weight_n) = (human.model.coordinate("pelvis_tx").unwrap().index(), human.model.mass() * G);
     let [stops, joins] = StandingMovements::JOINS.map(|share| state_at(&walk, share * walk.cycle_s()));
     let rest = state_at(&stop, stop.problem().duration_s);

@@ -725,7 +725,8 @@ static STANDING: LazyLock<[PhysicalWalk; 2]> = LazyLock::new(|| {
     let walk = Walk::new(&gait, leg_length, &mut Findings::default()).unwrap();
     let found = OptimalWalk::find(&MAN, &walk).unwrap();
     let (human, plan, step) = (found.figure(), &found.solution, StepSettings::default());
-    let (settings, movements) = (ControlSettings::default(), StandingMovements::find(&human, plan).unwrap());
+    let movements = StandingMovements::find(&human, plan).and_then(|found| found.with_steps(&human, plan)).unwrap();
+    let settings = ControlSettings::default();
     let own = WalkController::new(&human, plan, step, &settings).unwrap();
     let own = own.with_movements(&human, plan, &movements, step, &settings).unwrap();
     [own.clone(), own.without_recovery_steps()].map(|controller| {

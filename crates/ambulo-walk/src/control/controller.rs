@@ -168,11 +168,15 @@ impl WalkController {
         step: StepSettings,
         settings: &ControlSettings,
     ) -> Result<WalkController, ControlError> {
-        let movements = StandingMovements::find(human, walk)?;
+        let mut movements = StandingMovements::find(human, walk)?;
+        if self.recovery.is_some() {
+            movements = movements.with_steps(human, walk)?;
+        }
         self.with_movements(human, walk, &movements, step, settings)
     }
 
-    /// As `WalkController::with_standing`, with movements that were found before.
+    /// As `WalkController::with_standing`, with movements that were found before. Steps out of standing, if there are
+    /// any, are not used by a controller that plans no step again.
     ///
     /// # Errors
     /// A walk that is not the slowest one, movements of another walk, balance without feedback of the whole state,
@@ -199,7 +203,9 @@ impl WalkController {
             is_late: delay_steps(settings, step.step_s) > 0,
             left: self.feedback.left,
         };
-        let standing = maker.standing(movements, &pace.plan, value, |q| self.plan.body.lowest(q))?;
+        let mut movements = movements.clone();
+        movements.steps.take_if(|_| self.recovery.is_none());
+        let standing = maker.standing(&movements, &pace.plan, value, |q| self.plan.body.lowest(q))?;
         self.plan.standing = Some(Arc::new(standing));
         Ok(self)
     }

@@ -101,7 +101,6 @@ const STEPS: Outline = Outline {
     swings: &[(Side::Left, [0.16, 0.40]), (Side::Right, [0.62, 0.86])],
     stances: &[(Side::Right, -0.2), (Side::Left, 0.5)],
 };
-const STEPS_NAME: &str = "movement of steps on the spot";
 /// Largest share of the walk in the first guess of steps on the spot.
 const MOST_WALK: f64 = 0.5;
 /// Phases in which the first step of a start has ended and its foot stands.
@@ -141,8 +140,8 @@ pub struct StandingMovements {
     pub stop: Solution,
     /// Movement from the posture in which the stop ends to the walk.
     pub start: Solution,
-    /// Movement from this posture to it: the left foot steps on the spot, then the right one. None in the plane, where
-    /// no foot can be lifted without leaning to the side.
+    /// Movement from this posture to it: the left foot steps on the spot, then the right one. None before
+    /// [`StandingMovements::with_steps`], and in the plane.
     pub steps: Option<Solution>,
 }
 
@@ -156,35 +155,28 @@ impl StandingMovements {
         STOPPING_SPEED * (human.model.gravity().norm() * human.dimensions.leg_length).sqrt()
     }
 
-    /// The movements of a figure between a walk and standing, and on the spot. The walk must be slow, as at
+    /// The movements of a figure between a walk and standing. The walk must be slow, as at
     /// [`StandingMovements::speed`].
     ///
     /// # Errors
     /// Joints that are not hinges or slides; no movement was found, because the walk is too fast.
     pub fn find(human: &Human, walk: &Solution) -> Result<StandingMovements, OptimalWalkError> {
-        let checked = |movement: &'static str, solution: Solution| {
-            let speed = walk.speed();
-            match solution.unbalanced(NO_ROOT_FORCE) {
-                Some(unbalanced) => Err(OptimalWalkError::NoMovement { movement, speed, unbalanced }),
-                None if hops(&solution) => Err(OptimalWalkError::Hops { movement, speed }),
-                None if movement != STEPS_NAME && misses(&solution, walk, movement == "start") => {
-                    Err(OptimalWalkError::Misses { movement, speed })
-                }
-                None => Ok(solution),
-            }
-        };
-        let stop = checked("stop", joining(human, walk, &STOP, None)?.solve_near_guess()?)?;
-        let empty = || vec![0.0; human.model.coordinates().len()];
-        let mut standing = [empty(), empty(), empty()];
-        stop.write(stop.problem().duration_s, &mut standing);
-        let start = checked("start", joining(human, walk, &START, Some(&standing[0]))?.solve_near_guess()?)?;
-        let steps = if human.model.anatomy().coordinate(Movement::PelvisRight, None).is_some() {
-            let steps = joining(human, walk, &STEPS, Some(&standing[0]))?.solve_near_guess()?;
-            Some(checked(STEPS_NAME, steps)?)
-        } else {
-            None
-        };
-        Ok(StandingMovements { stop, start, steps })
+        let stop = solved(human, walk, "stop", &STOP, None)?;
+        let start = solved(human, walk, "start", &START, Some(&at_rest(&stop)))?;
+        Ok(StandingMovements { stop, start, steps: None })
+    }
+
+    /// The same movements with steps on the spot, unless the figure is in the plane, where no foot can be lifted
+    /// without leaning to the side.
+    ///
+    /// # Errors
+    /// No movement was found.
+    pub fn with_steps(self, human: &Human, walk: &Solution) -> Result<StandingMovements, OptimalWalkError> {
+        if human.model.anatomy().coordinate(Movement::PelvisRight, None).is_none() {
+            return Ok(self);
+        }
+        let steps = solved(human, walk, "movement of steps on the spot", &STEPS, Some(&at_rest(&self.stop)))?;
+        Ok(StandingMovements { steps: Some(steps), ..self })
     }
 
     /// Whether the stop begins in a walk, and the start ends in it.
@@ -194,6 +186,30 @@ impl StandingMovements {
         [(&self.stop, false), (&self.start, true)]
             .into_iter()
             .all(|(movement, is_start)| coordinates(movement) == coordinates(walk) && !misses(movement, walk, is_start))
+    }
+}
+
+/// The posture in which a stop ends.
+fn at_rest(stop: &Solution) -> Vec<f64> {
+    stop.instant(stop.problem().duration_s).posture[0].clone()
+}
+
+/// A movement; with the posture of standing, one from it.
+fn solved(
+    human: &Human,
+    walk: &Solution,
+    movement: &'static str,
+    outline: &Outline,
+    standing: Option<&[f64]>,
+) -> Result<Solution, OptimalWalkError> {
+    let (solution, speed) = (joining(human, walk, outline, standing)?.solve_near_guess()?, walk.speed());
+    match solution.unbalanced(NO_ROOT_FORCE) {
+        Some(unbalanced) => Err(OptimalWalkError::NoMovement { movement, speed, unbalanced }),
+        None if hops(&solution) => Err(OptimalWalkError::Hops { movement, speed }),
+        None if outline.walks.is_some_and(|end| misses(&solution, walk, end == 1)) => {
+            Err(OptimalWalkError::Misses { movement, speed })
+        }
+        None => Ok(solution),
     }
 }
 

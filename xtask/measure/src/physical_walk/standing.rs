@@ -73,7 +73,8 @@ pub(super) fn measure(settings: &ControlSettings) -> Result<Vec<Stands>, String>
 fn stands(name: String, figure: &Figure, settings: &ControlSettings) -> Result<Stands, String> {
     let Figure { human, plan } = figure;
     let clock = ThreadTime::now();
-    let movements = StandingMovements::find(human, plan).map_err(|e| e.to_string())?;
+    let movements = StandingMovements::find(human, plan).and_then(|found| found.with_steps(human, plan));
+    let movements = movements.map_err(|e| e.to_string())?;
     let found_s = clock.elapsed().as_secs_f64();
     let own = controller(figure, settings)?;
     let clock = ThreadTime::now();
