@@ -18,7 +18,7 @@ const METHODS: &str = "
 ## Method
 
 - **Figure**: bodies, masses, inertias, joints and spheres of the model are written as MJCF. Every coordinate is a slide or a hinge of its own. The
-  spheres under the soles touch only the ground, in both simulators, so legs pass through each other. Each run compares mass matrix and bias forces of
+  spheres under the soles touch only the ground, in both simulators. Legs are solid in our simulator alone. Each run compares mass matrix and bias forces of
   both models at the start.
 - **Controller**: after each step of 1 ms, MuJoCo sends coordinates, rates and the vertical force on each foot through a pipe. Our controller returns
   stiffness, damping, target and largest torque of a motor for each joint. Nothing acts on the root. All walks start in the same state.

@@ -31,11 +31,12 @@ const SPEED: f64 = 1.25;
 /// Other speeds [m/s].
 const SPEEDS: [f64; 12] = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8];
 /// Other figures.
-const BUILDS: [Build; 4] = [
+const BUILDS: [Build; 5] = [
     Build { table: SegmentTable::DeLevaFemale, mass: 60.0, height: 1.65, toe_joint: true },
     Build { mass: 30.0, height: 1.30, ..MAN },
     Build { mass: 120.0, height: 1.90, ..MAN },
     Build { table: SegmentTable::Faure1997, mass: 80.0, height: 1.80, toe_joint: true },
+    Build { table: SegmentTable::DempsterWinter, mass: 90.0, height: 1.70, toe_joint: true },
 ];
 /// Time at the lowest and the highest of these speeds, and time of a change from one to the other [s].
 const HOLD_S: f64 = 10.0;

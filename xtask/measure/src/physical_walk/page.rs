@@ -251,8 +251,8 @@ fn shoved(rows: &[spatial::Shoved]) -> String {
          phases and in all directions, survived if five cycles follow without a fall. Legs are solid. The last two \
          columns are without recovery steps. Asked of the man: 62 of 72 at {small}, 45 of 72 at {large}. The \
          constants of recovery steps were chosen on these pushes at {SPEED} m/s; the row with 24 pushes at that speed \
-         has others, of another seed. Other figures get every third push, in proportion to their mass; all have the \
-         same settings.\n\n{}\n",
+         has others, of another seed. Other figures get every third push, in proportion to their mass, and walk at \
+         these speeds times the root of their stature over his; all have the same settings.\n\n{}\n",
         table.text()
     )
 }

@@ -69,9 +69,9 @@ pub(super) struct Shoved {
 
 /// Forces of the pushes from all sides of 75 kg [N].
 pub(super) const SHOVES: [f64; 2] = [150.0, 200.0];
-/// Speeds at which the man is pushed from all sides [m/s].
+/// Speeds at which the man is pushed from all sides [m/s]; those of others grow with the root of stature.
 const SHOVED_AT: [f64; 3] = [1.0, SPEED, 1.6];
-/// Other figures get every third of the pushes, at a speed of their own.
+/// Other figures get every third of the pushes.
 const OF_OTHERS: usize = 3;
 
 pub(super) fn measure(settings: &ControlSettings) -> Result<Results, String> {
@@ -107,7 +107,7 @@ pub(super) fn measure(settings: &ControlSettings) -> Result<Results, String> {
     })
 }
 
-/// Pushes from all sides of the man at three speeds and of the other figures at one, the same as in the report of
+/// Pushes from all sides of all figures at three speeds, the same as in the report of
 /// `ambulo tune examples/pushed-from-four-sides.toml`.
 fn shoved(settings: &ControlSettings) -> Result<Vec<Shoved>, String> {
     let of_seed = |seed| PushSettings { seed, force_n: 0.0, count: 24, all_around: true }.pushes(PushUse::Report);
@@ -115,12 +115,12 @@ fn shoved(settings: &ControlSettings) -> Result<Vec<Shoved>, String> {
     let all = of_seed(1);
     let (some, unseen) = (third(&all), third(&of_seed(2)));
     let man = SHOVED_AT.map(|speed| (MAN, speed, &all)).into_iter().chain([(MAN, SPEED, &unseen)]);
-    let others = BUILDS.map(|build| (build, SPEED * (build.height / MAN.height).sqrt(), &some));
+    let at = |speed: f64, build: &Build| speed * (build.height / MAN.height).sqrt();
+    let others = BUILDS.iter().flat_map(|build| SHOVED_AT.map(|speed| (*build, at(speed, build), &some)));
     let of = |(build, speed, pushes): (Build, f64, &Vec<Push>)| {
         let figure = figure_of(&build, speed, 0.0)?;
-        let alone = ControlSettings { recovery_steps: false, ..settings.clone() };
-        let [with, without] = [settings, &alone].map(|settings| controller(&figure, settings));
-        let [with, without] = [with?, without?];
+        let with = controller(&figure, settings)?;
+        let without = with.clone().without_recovery_steps();
         let count = |controller: &WalkController, force_n| survived_shoves(&figure, controller, pushes, force_n);
         let both = |controller: &WalkController| -> Result<[usize; 2], String> {
             Ok([count(controller, SHOVES[0])?, count(controller, SHOVES[1])?])
