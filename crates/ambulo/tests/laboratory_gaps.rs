@@ -131,8 +131,12 @@ fn assert_losses_change_little(trial: Option<Trial>, allowed: f64) {
     let (reference, _, fitted) = moments(&trial, &trial.walk);
     let [from, to] = trial.window;
     let starts: Vec<f64> = (0..3).map(|k| from + f64::from(k) / 2.0 * (to - from - 0.3)).collect();
-    let single: Vec<Vec<String>> = fitted.iter().map(|name| vec![name.clone()]).collect();
-    let [all, one] = worst_change(&trial, &reference, &single, &starts, 0.3);
+    // Markers are lost at the start, in the middle and at the end by turns.
+    let (mut all, mut one) = (0.0_f64, 0.0_f64);
+    for (name, start) in fitted.iter().zip(starts.iter().cycle()) {
+        let [of_all, of_one] = worst_change(&trial, &reference, &[vec![name.clone()]], &[*start], 0.3);
+        (all, one) = (all.max(of_all), one.max(of_one));
+    }
     println!("{name}: any marker for 0.3 s: {:.2} % of all, {:.2} % of one joint", 100.0 * all, 100.0 * one);
     let of_side = |side: &str| -> Vec<String> {
         FOOT.iter().map(|m| format!("{side}{m}")).filter(|name| fitted.contains(name)).collect()
