@@ -94,11 +94,11 @@ impl Phase {
     pub(super) fn feel(&mut self, plan: &WalkPlan, sensed: Sensed<'_>) {
         for (foot, load) in sensed.loads_n.into_iter().enumerate() {
             if load > STRIKE * self.weight_n {
+                if self.swings(foot) && matches!(self.at.stage, Stage::Stepping(_)) {
+                    self.step_aside(plan, sensed);
+                }
                 if self.swing_s[foot] > SHORTEST_SWING_S {
                     self.strikes += 1;
-                    if matches!(self.at.stage, Stage::Stepping(_)) {
-                        self.step_aside(plan, sensed);
-                    }
                     if self.at.stage == Stage::Walking {
                         self.strike(foot, plan);
                         let q: Vec<f64> = sensed.now.iter().map(|now| now[0]).collect();
