@@ -1,8 +1,9 @@
 //! Impedances of joints, and the derivatives of time steps of a figure.
 //!
 //! Derivatives are differences of one step each, also where feet touch the soft ground: a difference over many steps
-//! would jump over the instants at which spheres begin to carry load. They are forward differences, which differ from
-//! central ones, of twice the cost, by a share of about 1e-5; gains do so too.
+//! would jump over the instants at which spheres begin to carry load. They are forward differences, which along a
+//! walk differ from central ones, of twice the cost, by a share of about 1e-5, and where contact sets in by up to 1e-3;
+//! gains do so too.
 
 use super::figure::FigureWorld;
 use super::plan::{CyclePlan, PlannedStep};
