@@ -39,7 +39,7 @@ pub mod tuning;
 pub mod internals {
     pub use crate::control::activation::activated;
     pub use crate::control::figure::FigureWorld;
-    pub use crate::control::linear::{Impedance, with_impedances};
+    pub use crate::control::linear::{DIFFERENCES, Impedance, with_impedances};
     pub use crate::control::plan::{CyclePlan, PlannedStep, Root};
     pub use crate::control::riccati::{Costs, StepMap};
     pub use crate::engine::joint::MOST;

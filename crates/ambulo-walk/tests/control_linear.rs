@@ -3,11 +3,15 @@
 use ambulo_walk::contact::HuntCrossley;
 use ambulo_walk::dynamics::{Workspace, inverse_frame};
 use ambulo_walk::engine::StepSettings;
-use ambulo_walk::internals::{CyclePlan, FigureWorld, Impedance, PlannedStep, Root, mirror, with_impedances};
+use ambulo_walk::findings::Findings;
+use ambulo_walk::gait::{Gait, Walk};
+use ambulo_walk::internals::{
+    CyclePlan, DIFFERENCES, FigureWorld, Impedance, PlannedStep, Root, mirror, with_impedances,
+};
 use ambulo_walk::kinematics::Posture;
 use ambulo_walk::model::anthropometry::{Build, SegmentTable};
 use ambulo_walk::model::full_body::full_body;
-use ambulo_walk::optimal::StrengthCurve;
+use ambulo_walk::optimal::{OptimalWalk, StrengthCurve};
 
 /// The strength of a giant.
 fn strong() -> StrengthCurve {
@@ -40,7 +44,7 @@ fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() 
         (0..count).map(|c| impedance(if joints.contains(&c) { 50.0 } else { 0.0 })).collect();
     let mut figure = FigureWorld::new(&human, HuntCrossley::SOFT_SHOES, StepSettings::default()).unwrap();
     let image = figure.maps(&plan, &impedances).unwrap().remove(1);
-    let found = figure.map(&plan, &impedances, 1).unwrap();
+    let found = figure.map(&plan, &impedances, 1, DIFFERENCES).unwrap();
     // The difference of a coordinate that changes its sign is one to the other side in the image.
     let states: Vec<usize> = (0..count).filter(|c| *c != root.forward).chain(0..count).collect();
     for (a, b, columns) in
@@ -53,6 +57,42 @@ fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() 
             assert!(apart < most, "side {side}: {apart}");
         }
     }
+}
+
+/// Along a walk, forward differences agree with central ones of ten times their size, except in single time steps in
+/// which a sphere of a foot begins to carry load: there a derivative changes within the difference.
+#[test]
+fn forward_differences_agree_with_central_ones_along_a_walk() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let leg_m = full_body(&build).unwrap().dimensions.leg_length;
+    let walk = Walk::new(&Gait::named("free").unwrap(), leg_m, &mut Findings::default()).unwrap();
+    let found = OptimalWalk::find(&build, &walk).unwrap();
+    let (human, settings) = (found.figure(), StepSettings::default());
+    let plan = CyclePlan::new(&human, &found.solution, settings.step_s).unwrap();
+    let joints = plan.joints();
+    let impedance = |c: usize| {
+        let stiffness = if joints.contains(&c) { 200.0 } else { 0.0 };
+        Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() }
+    };
+    let impedances: Vec<Impedance> = (0..human.model.coordinates().len()).map(impedance).collect();
+    let mut figure = FigureWorld::new(&human, found.solution.problem().shoes, settings).unwrap();
+    let mut map =
+        |step: usize, factor: f64| figure.map(&plan, &impedances, step, DIFFERENCES.map(|size| factor * size)).unwrap();
+    let mut apart: Vec<f64> = Vec::new();
+    for step in (0..plan.steps.len() / 2).step_by(23) {
+        let [forward, ahead, back] = [1.0, 10.0, -10.0].map(|factor| map(step, factor));
+        for (forward, ahead, back) in
+            [(&forward.by_state, &ahead.by_state, &back.by_state), (&forward.by_input, &ahead.by_input, &back.by_input)]
+        {
+            let central = 0.5 * (ahead + back);
+            apart.push((forward - &central).amax() / central.amax());
+        }
+    }
+    apart.sort_by(f64::total_cmp);
+    let [median, most] = [apart[apart.len() / 2], apart[apart.len() - 1]];
+    println!("{} maps: apart by {median:.1e} (median), {most:.1e} (most)", apart.len());
+    assert!(median < 5e-5 && most < 5e-3, "{median} {most}");
+    assert!(median > 0.0, "the differences are the same");
 }
 
 /// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse

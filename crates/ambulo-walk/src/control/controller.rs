@@ -203,9 +203,8 @@ impl WalkController {
             is_late: delay_steps(settings, step.step_s) > 0,
             left: self.feedback.left,
         };
-        let mut movements = movements.clone();
-        movements.steps.take_if(|_| self.recovery.is_none());
-        let standing = maker.standing(&movements, &pace.plan, value, |q| self.plan.body.lowest(q))?;
+        let steps = movements.steps.as_ref().filter(|_| self.recovery.is_some());
+        let standing = maker.standing(movements, steps, &pace.plan, value, |q| self.plan.body.lowest(q))?;
         self.plan.standing = Some(Arc::new(standing));
         Ok(self)
     }

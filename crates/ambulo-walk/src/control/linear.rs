@@ -15,8 +15,8 @@ use crate::optimal::{ECCENTRIC, StrengthCurve};
 use crate::walking::WalkingError;
 use nalgebra::{DMatrix, DVector};
 
-/// Differences of coordinates [rad or m], rates [rad/s or m/s] and torques [N.m].
-const DIFFERENCES: [f64; 3] = [1e-7, 1e-6, 1e-3];
+/// Differences of coordinates [rad or m], rates [rad/s or m/s] and torques [N.m] by which maps are made.
+pub const DIFFERENCES: [f64; 3] = [1e-7, 1e-6, 1e-3];
 
 /// Muscles need clearly more than they have from this share of their strength on. Push-off takes the ankle to its
 /// strength in every step.
@@ -75,7 +75,8 @@ impl FigureWorld {
     pub fn maps(&mut self, plan: &CyclePlan, impedances: &[Impedance]) -> Result<Vec<StepMap>, ControlError> {
         let count = plan.steps.len();
         let first = if plan.mirror.is_some() { count / 2 } else { count };
-        let mut maps = (0..first).map(|k| self.map(plan, impedances, k)).collect::<Result<Vec<_>, _>>()?;
+        let map = |k| self.map(plan, impedances, k, DIFFERENCES);
+        let mut maps = (0..first).map(map).collect::<Result<Vec<_>, _>>()?;
         if let Some(mirror) = &plan.mirror {
             let images: Vec<StepMap> = maps.iter().map(|map| mirrored(map, plan, mirror)).collect();
             maps.extend(images);
@@ -83,8 +84,14 @@ impl FigureWorld {
         Ok(maps)
     }
 
-    /// The map of one time step.
-    pub fn map(&mut self, plan: &CyclePlan, impedances: &[Impedance], step: usize) -> Result<StepMap, ControlError> {
+    /// The map of one time step, by given differences.
+    pub fn map(
+        &mut self,
+        plan: &CyclePlan,
+        impedances: &[Impedance],
+        step: usize,
+        differences: [f64; 3],
+    ) -> Result<StepMap, ControlError> {
         let (places, joints) = (plan.places(), plan.joints());
         let (width, states) = (impedances.len(), places.len() + impedances.len());
         let planned = &plan.steps[step];
@@ -94,12 +101,12 @@ impl FigureWorld {
         let mut by_state = DMatrix::zeros(states, states);
         for i in 0..states {
             let moved = if i < places.len() { places[i] } else { width + i - places.len() };
-            let size = DIFFERENCES[usize::from(i >= places.len())];
+            let size = differences[usize::from(i >= places.len())];
             by_state.set_column(i, &by(size, probe(Some((moved, size)), None)?));
         }
         let mut by_input = DMatrix::zeros(states, joints.len());
         for (i, joint) in joints.iter().enumerate() {
-            let size = DIFFERENCES[2];
+            let size = differences[2];
             by_input.set_column(i, &by(size, probe(None, Some((*joint, size)))?));
         }
         Ok(StepMap { by_state, by_input })

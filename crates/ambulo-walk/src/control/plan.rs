@@ -83,7 +83,8 @@ impl Root {
 }
 
 impl CyclePlan {
-    pub(super) fn new(human: &Human, solution: &Solution, step_s: f64) -> Result<CyclePlan, ControlError> {
+    /// The time steps of a solved walk or movement.
+    pub fn new(human: &Human, solution: &Solution, step_s: f64) -> Result<CyclePlan, ControlError> {
         let cycle_s = solution.cycle_s();
         // An even number, so that halves of the cycle can be compared.
         let found = 2 * (0.5 * cycle_s / step_s).round() as usize;

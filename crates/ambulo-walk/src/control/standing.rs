@@ -207,11 +207,12 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation; `lowest` are heights of
-    /// soles.
+    /// Standing of a figure whose start joins a walk with the matrix P of the Riccati equation, with steps on the spot
+    /// for one that steps to keep its balance; `lowest` are heights of soles.
     pub(super) fn standing(
         &mut self,
         movements: &StandingMovements,
+        steps: Option<&Solution>,
         walk: &CyclePlan,
         value: &DMatrix<f64>,
         lowest: impl Fn(&[f64]) -> [f64; 2],
@@ -223,7 +224,6 @@ impl Maker<'_> {
         let (gain, of_standing) = self.costs.repeated(&maps[0], times).ok_or(ControlError::Riccati)?;
         let along = vec![of_standing.clone()];
         let stand = Movement { gains: vec![gain], steps: vec![stands], maps: self.kept(maps), along };
-        let steps = movements.steps.as_ref();
         let steps = steps.map(|steps| self.movement(steps, walk, of_standing.clone())).transpose()?;
         let stop = self.movement(&movements.stop, walk, of_standing)?;
         let start = self.movement(&movements.start, walk, value.clone())?;
