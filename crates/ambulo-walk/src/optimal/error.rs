@@ -95,7 +95,7 @@ pub enum OptimalWalkError {
         overload: Overload,
     },
     /// A movement without its forces.
-    #[error("no {movement} was found for a walk at {speed:.2} m/s: {unbalanced}")]
+    #[error("no {movement} was found for a walk at {speed:.2} m/s: {unbalanced}{}", hint(movement))]
     NoMovement {
         /// `stop`, `start` or `movement of steps on the spot`.
         movement: &'static str,
@@ -107,7 +107,8 @@ pub enum OptimalWalkError {
     /// A movement that does not reach the walk.
     #[error(
         "no {movement} was found for a walk at {speed:.2} m/s: it would have another posture or another speed where it \
-         joins the walk"
+         joins the walk{}",
+        hint(movement)
     )]
     Misses {
         /// `stop`, `start` or `movement of steps on the spot`.
@@ -116,7 +117,7 @@ pub enum OptimalWalkError {
         speed: f64,
     },
     /// A movement that leaves the ground.
-    #[error("no {movement} was found for a walk at {speed:.2} m/s: the figure would hop")]
+    #[error("no {movement} was found for a walk at {speed:.2} m/s: the figure would hop{}", hint(movement))]
     Hops {
         /// `stop`, `start` or `movement of steps on the spot`.
         movement: &'static str,
@@ -135,6 +136,18 @@ pub enum OptimalWalkError {
     /// A change of pace without a motion before or after it.
     #[error("found a change of pace without a motion before or after it; expected one on both sides")]
     Order,
+}
+
+/// Name of the movement of steps out of standing.
+pub(super) const STEPS_ON_THE_SPOT: &str = "movement of steps on the spot";
+
+/// How a scene does without a movement, if it can.
+fn hint(movement: &str) -> &'static str {
+    if movement == STEPS_ON_THE_SPOT {
+        ". hint: with `recovery_steps = false` a figure of a scene stands by feedback alone and needs no such steps"
+    } else {
+        ""
+    }
 }
 
 /// A muscle moment above the strength of its joint.

@@ -18,7 +18,7 @@
 //! Fast walks cannot be stopped in this way: the extrapolated mass centre x + v √(l/g) must not be beyond the toes
 //! (Hof, Gazendam, Sinke 2005; unverified).
 
-use super::error::OptimalWalkError;
+use super::error::{OptimalWalkError, STEPS_ON_THE_SPOT};
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::movement::{End, Key, MovementProblem, Nearness, posture};
@@ -177,7 +177,7 @@ impl StandingMovements {
         if human.model.anatomy().coordinate(Movement::PelvisRight, None).is_none() {
             return Ok(self);
         }
-        let steps = solved(human, walk, "movement of steps on the spot", &STEPS, Some(&at_rest(&self.stop)))?;
+        let steps = solved(human, walk, STEPS_ON_THE_SPOT, &STEPS, Some(&at_rest(&self.stop)))?;
         Ok(StandingMovements { steps: Some(steps), ..self })
     }
 
