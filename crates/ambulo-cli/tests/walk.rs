@@ -483,6 +483,16 @@ fn a_walk_with_springs_says_what_they_and_the_body_did() {
     let work = &bench.json("out/summary.json")["walk"]["prediction"]["device_work"][0];
     let of = |who: &str| [0, 1].map(|k| work[who][k].as_f64().unwrap());
     let ([given, taken], [done, braked]) = (of("device_j_kg"), of("body_j_kg"));
+    // The walk without the device is the one that is predicted without it.
+    bench.run(&["walk", "--mode", "predict", "--cycles", "1", "--quiet", "-o", "alone"]).done();
+    let power = |folder: &str, key: &str| {
+        bench.json(&format!("{folder}/summary.json"))["walk"]["prediction"][key].as_f64().unwrap()
+    };
+    let alone = power("out", "metabolic_power_without_devices_w_kg");
+    assert!((alone - power("alone", "metabolic_power_w_kg")).abs() < 1e-9, "{alone}");
+    // Springs alone change what the muscles do.
+    let [done_alone, taken_alone] = of("body_without_device_j_kg");
+    assert!(done_alone > 0.05 && taken_alone < 0.0 && (done_alone - done).abs() > 1e-3, "{done_alone} {taken_alone}");
     assert!(given > 0.01 && (given + taken).abs() < 0.01 * given, "{given} {taken}");
     assert!(done > 0.05 && braked < 0.0, "{done} {braked}");
 }

@@ -69,7 +69,7 @@ pub use tables::ground_columns;
 pub use timings::Timings;
 pub use tracking_summary::TrackingSummary;
 pub use units::{is_storage, unit_of};
-pub use walk_summary::{PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
+pub use walk_summary::{DeviceWorkSummary, PaceChangeSummary, PelvisPath, WalkPredictionSummary, WalkSummary};
 pub use walking_summary::{
     QuantitySummary, SpreadSummary, WalkingSummary, contact_load_summary, knee_adduction_summary,
 };

@@ -102,11 +102,23 @@ pub struct WalkPredictionSummary {
     pub metabolic_power_w_kg: f64,
     /// The same per distance [J/kg/m].
     pub cost_of_transport_j_kg_m: f64,
+    /// Metabolic power of the walk without the devices, at the same speed and cadence [W/kg]; `null` where none is worn
+    /// and where there is no such walk.
+    #[serde(default)]
+    pub metabolic_power_without_devices_w_kg: Option<f64>,
+    /// Why there is no walk without the devices; `null` where there is one, or no device.
+    #[serde(default)]
+    pub no_walk_without_devices: Option<String>,
 }
 
 impl WalkPredictionSummary {
     fn new(report: &PredictionReport, model: &Model, speed: f64) -> WalkPredictionSummary {
-        let conditions = &report.conditions;
+        let (conditions, unassisted) = (&report.conditions, report.unassisted.as_ref());
+        let alone = unassisted.and_then(|found| found.as_ref().ok());
+        let work = |(number, effort)| {
+            let without = alone.and_then(|alone| alone.body_work.get(number)).copied();
+            DeviceWorkSummary::new(effort, without, model)
+        };
         WalkPredictionSummary {
             slope_percent: 100.0 * conditions.slope,
             load_kg: conditions.load.map_or(0.0, |load| load.mass),
@@ -114,11 +126,23 @@ impl WalkPredictionSummary {
             strength: conditions.strengths.iter().cloned().collect(),
             devices: conditions.devices.iter().map(|device| device.coordinate.clone()).collect(),
             step_width_m: conditions.step_width_m,
-            device_work: report.devices.iter().map(|effort| DeviceWorkSummary::new(effort, model)).collect(),
+            device_work: report.devices.iter().enumerate().map(work).collect(),
             usual_cadence_steps_min: report.usual_cadence,
             metabolic_power_w_kg: report.metabolic_power,
             cost_of_transport_j_kg_m: report.metabolic_power / speed,
+            metabolic_power_without_devices_w_kg: alone.map(|alone| alone.metabolic_power),
+            no_walk_without_devices: unassisted.and_then(|found| found.as_ref().err()).map(ToString::to_string),
         }
+    }
+
+    /// What the walk costs without its devices, in words; `None` where none is worn.
+    #[must_use]
+    pub fn without_devices(&self) -> Option<String> {
+        if let Some(reason) = &self.no_walk_without_devices {
+            return Some(format!("without it: {reason}"));
+        }
+        let (power, with) = (self.metabolic_power_without_devices_w_kg?, self.metabolic_power_w_kg);
+        Some(format!("metabolic power {with:.2} W/kg, without it {power:.2} ({:+.1} %)", 100.0 * (with / power - 1.0)))
     }
 
     /// The conditions in words: slope, load, weak joints, devices, width of steps, free cadence. Empty for level
@@ -158,14 +182,18 @@ pub struct DeviceWorkSummary {
     pub device_j_kg: [f64; 2],
     /// Positive and negative work of the rest of the joint moment, that of muscles and tissue [J/kg].
     pub body_j_kg: [f64; 2],
+    /// The same in the walk without the devices, at the same speed and cadence; `null` where there is none.
+    #[serde(default)]
+    pub body_without_device_j_kg: Option<[f64; 2]>,
 }
 
 impl DeviceWorkSummary {
-    fn new(effort: &DeviceEffort, model: &Model) -> DeviceWorkSummary {
+    fn new(effort: &DeviceEffort, without: Option<[f64; 2]>, model: &Model) -> DeviceWorkSummary {
         DeviceWorkSummary {
             coordinate: model.coordinates()[effort.coordinate.index()].name.clone(),
             device_j_kg: effort.device_work,
             body_j_kg: effort.body_work,
+            body_without_device_j_kg: without,
         }
     }
 
@@ -173,9 +201,12 @@ impl DeviceWorkSummary {
     #[must_use]
     pub fn words(&self) -> String {
         let [[device, device_taken], [body, body_taken]] = [self.device_j_kg, self.body_j_kg];
+        let without = self.body_without_device_j_kg.map_or_else(String::new, |[alone, alone_taken]| {
+            format!(", without it {alone:.3} and {:.3}", -alone_taken)
+        });
         format!(
             "{}: the device does {device:.3} and takes {:.3} J/kg in a cycle, muscles and tissue do {body:.3} and take \
-             {:.3}",
+             {:.3}{without}",
             self.coordinate, -device_taken, -body_taken
         )
     }

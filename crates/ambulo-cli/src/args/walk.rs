@@ -263,7 +263,8 @@ pub(crate) struct ConditionArgs {
     #[serde(deserialize_with = "json::weaknesses")]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub(crate) weak: Vec<(String, f64)>,
-    /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md).
+    /// Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md); the results compare with the walk without
+    /// them, which takes as long again.
     #[arg(long, value_name = "FILE")]
     pub(crate) device: Option<PathBuf>,
     /// Distance between the paths of both feet, 0 to 0.5 m [default: the one with the least muscle effort].

@@ -101,7 +101,8 @@ fn walked(
         None if mode == SyntheticMode::Predicted => predict(&walk_settings, &conditions, &mut findings),
         None => synthesise(&walk_settings, &mut findings),
     };
-    let walk = in_file(walk, gait_file.as_ref())?;
+    let mut walk = in_file(walk, gait_file.as_ref())?;
+    walk.compare_without_devices();
     clock.lap("walk");
     let run = SyntheticRun {
         walk: &walk,

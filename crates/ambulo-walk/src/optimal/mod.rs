@@ -40,6 +40,7 @@ pub(crate) mod predict;
 mod standing;
 mod strength;
 mod track;
+mod unassisted;
 pub(crate) mod walk;
 
 pub use conditions::{Device, Load, LoadPlace, WalkConditions};
@@ -64,5 +65,6 @@ pub use solve::{Continuation, NO_ROOT_FORCE};
 pub use standing::StandingMovements;
 pub use strength::{ECCENTRIC, Hill, StrengthCurve};
 pub use track::{FootGuide, TRACK_STAGES, TrackError, TrackProblem, TrackSettings, TrackedFoot, TrackedMotion};
+pub use unassisted::Unassisted;
 pub use walk::{FINE_STAGES, SPATIAL_STAGES, STAGES, WalkCosts, WalkProblem, soles_with_width};
 pub(crate) use walk::{Passage, PassageEnd};

@@ -12,7 +12,8 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
 use crate::optimal::{
-    Device, DeviceEffort, OptimalWalk, OptimalWalkError, Sample, Solution, WalkConditions, metabolic_power, moment_at,
+    Device, DeviceEffort, OptimalWalk, OptimalWalkError, Sample, Solution, Unassisted, WalkConditions, metabolic_power,
+    moment_at,
 };
 use crate::spatial::Vec3;
 use crate::walking::{FootRecord, loads, worst_slip};
@@ -63,9 +64,23 @@ fn reported(
     let start_s = kept.first as f64 * settings.step_s();
     let moments = |effort: &DeviceEffort| device_moments(&predicted, effort.coordinate, &conditions.devices, start_s);
     let device_moments = devices.iter().map(moments).collect();
-    predicted.report.prediction =
-        Some(PredictionReport { conditions, metabolic_power, usual_cadence, devices, device_moments });
+    predicted.report.prediction = Some(PredictionReport {
+        conditions,
+        metabolic_power,
+        usual_cadence,
+        devices,
+        device_moments,
+        unassisted: None,
+    });
     Ok(predicted)
+}
+
+impl SyntheticWalk {
+    /// Predicts a walk with devices once more without them, and adds that to the report. Other walks stay as they are.
+    pub fn compare_without_devices(&mut self) {
+        let Some(report) = self.report.prediction.as_mut().filter(|report| !report.devices.is_empty()) else { return };
+        report.unassisted = Some(Unassisted::predict(&self.human.build, &self.walk, &report.conditions));
+    }
 }
 
 /// Moment of the devices at a joint in all frames of a walk that begins at a time of its solution [N.m].

@@ -8,7 +8,7 @@ use crate::gait::{Gait, PaceRamp, Style, Walk};
 use crate::kinematics::Trajectory;
 use crate::model::anthropometry::{Human, SegmentTable};
 use crate::motion::ForceRecording;
-use crate::optimal::{DeviceEffort, WalkConditions};
+use crate::optimal::{DeviceEffort, OptimalWalkError, Unassisted, WalkConditions};
 use crate::walking::{ExcerptRows, StanceSlip, TorqueSeries, WalkRecording};
 use std::ops::Range;
 
@@ -93,6 +93,9 @@ pub struct PredictionReport {
     pub devices: Vec<DeviceEffort>,
     /// Moment of the devices at each of these joints [N.m], one entry per frame.
     pub device_moments: Vec<Vec<f64>>,
+    /// The walk without the devices, or why there is none; `None` where no device is worn, and before
+    /// [`SyntheticWalk::compare_without_devices`].
+    pub unassisted: Option<Result<Unassisted, OptimalWalkError>>,
 }
 
 /// A change of pace and what it leads to.

@@ -6,7 +6,7 @@ use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
 use ambulo::numerics::elementary::{atan2, hypot};
 use ambulo::study::MassState;
-use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary};
+use ambulo_results::{ChangeUnit, Convention, DeviceWorkSummary, FilterKind, FilterSummary};
 
 /// Below this speed a body stays in place [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -93,7 +93,8 @@ fn conditions(results: &Results) -> Option<Fact> {
     );
     let sloped = made.slope_percent.abs() > 0.0;
     let axes = if sloped { "; all curves and the 3-D view are in axes of the slope, so it looks level" } else { "" };
-    let devices: String = made.device_work.iter().map(|work| format!("; {}", work.words())).collect();
+    let work = made.device_work.iter().map(DeviceWorkSummary::words);
+    let devices: String = made.without_devices().into_iter().chain(work).map(|words| format!("; {words}")).collect();
     Some(fact("Conditions", conditions, Some(format!("{cost}{devices}{axes}"))))
 }
 

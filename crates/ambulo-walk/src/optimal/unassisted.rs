@@ -1,0 +1,36 @@
+//! What devices change: the same walk without them.
+
+use super::conditions::{Device, WalkConditions};
+use super::error::OptimalWalkError;
+use super::find::OptimalWalk;
+use super::predict::{DeviceEffort, metabolic_power};
+use crate::gait::Walk;
+use crate::model::anthropometry::Build;
+
+/// The same walk, at the same speed and cadence, without its devices.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unassisted {
+    /// Metabolic power, as [`metabolic_power`] [W/kg of the body without load].
+    pub metabolic_power: f64,
+    /// Positive and negative work of the body at each joint with a device [J/kg of the body without load], in the order
+    /// of [`DeviceEffort::of`].
+    pub body_work: Vec<[f64; 2]>,
+}
+
+impl Unassisted {
+    /// Predicts the walk of some conditions without their devices.
+    ///
+    /// # Errors
+    /// As [`OptimalWalk::predict`]: it may be that the muscles alone cannot do it.
+    pub fn predict(build: &Build, walk: &Walk, conditions: &WalkConditions) -> Result<Unassisted, OptimalWalkError> {
+        let without = WalkConditions { devices: Vec::new(), free_cadence: false, ..conditions.clone() };
+        let found = OptimalWalk::predict(build, walk, &without)?;
+        let idle = |device: &Device| Device { stiffness: 0.0, damping: 0.0, moments: Vec::new(), ..device.clone() };
+        let idle: Vec<Device> = conditions.devices.iter().map(idle).collect();
+        let efforts = DeviceEffort::of(&found.solution, walk, build.mass, &idle)?;
+        Ok(Unassisted {
+            metabolic_power: metabolic_power(&found.solution, walk, build.mass, &[])?,
+            body_work: efforts.into_iter().map(|effort| effort.body_work).collect(),
+        })
+    }
+}
