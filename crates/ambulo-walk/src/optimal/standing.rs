@@ -36,7 +36,7 @@ const STOPPING_SPEED: f64 = 0.235;
 
 /// Posture of standing [deg]: the trunk is upright, knees are not locked, and on level feet the hip joints of a man of
 /// 1.75 m are 62 mm ahead of the ankles, the mean of fifteen people (standard deviation 13 mm; Woodhull, Maltrud, Mello
-/// 1985, abstract read). Soft heels give way by 0.8 degrees, which leaves some 50 mm.
+/// 1985, abstract read). Soft heels give way by 0.8 to 1.5 degrees, which leaves 40 to 50 mm.
 const STANDING: [(Movement, f64); 3] =
     [(Movement::HipFlexion, -1.6), (Movement::KneeFlexion, 5.0), (Movement::AnkleDorsiflexion, 6.6)];
 /// Deviation of joint angles from this posture that costs 1 where a stop ends [rad]: the feet are side by side.
