@@ -358,7 +358,7 @@ export interface ConditionArgs {
   load?: number | string | null;
   /** Remaining share of a joint's strength, such as ankle=0.6 (both sides) or knee_r=0.5; repeatable. */
   weak?: string[];
-  /** Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md). */
+  /** Devices at joints, springs or given moments: .toml (docs/OPTIMAL.md); the results compare with the walk without them, which takes as long again. */
   device?: string | null;
   /** Distance between the paths of both feet, 0 to 0.5 m [default: the one with the least muscle effort]. */
   step_width?: number | null;
