@@ -1,7 +1,7 @@
 //! The first screen: recording, source of the forces, speed, steps, asymmetry, and the largest differences from normal.
 
 use super::curves::{shown_cycles, statistics};
-use super::header::{fact, forces, recording, speed_in_words};
+use super::header::{devices, fact, forces, recording, speed_in_words};
 use super::results::Results;
 use super::size::BodySize;
 use super::time_distance;
@@ -28,6 +28,7 @@ pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQ
         mean(results, StrideQuantity::Cadence).map(|mean| fact("Cadence", format!("{mean:.0} steps/min"), None)),
         mean(results, StrideQuantity::StepLength).map(|mean| fact("Step length", format!("{mean:.2} m"), None)),
         asymmetry(results),
+        devices(results),
     ];
     let mut deviations: Vec<Deviation> =
         quantities.iter().filter_map(|quantity| Deviation::of(results, size, quantity)).collect();

@@ -93,9 +93,14 @@ fn conditions(results: &Results) -> Option<Fact> {
     );
     let sloped = made.slope_percent.abs() > 0.0;
     let axes = if sloped { "; all curves and the 3-D view are in axes of the slope, so it looks level" } else { "" };
-    let work = made.device_work.iter().map(DeviceWorkSummary::words);
-    let devices: String = made.without_devices().into_iter().chain(work).map(|words| format!("; {words}")).collect();
-    Some(fact("Conditions", conditions, Some(format!("{cost}{devices}{axes}"))))
+    Some(fact("Conditions", conditions, Some(format!("{cost}{axes}"))))
+}
+
+/// What devices at the joints of a predicted walk do, and what the walk needs without them.
+pub(super) fn devices(results: &Results) -> Option<Fact> {
+    let made = results.summary.walk.as_ref()?.prediction.as_ref()?;
+    let work: Vec<String> = made.device_work.iter().map(DeviceWorkSummary::words).collect();
+    Some(fact("Device", made.without_devices()?, Some(work.join("; "))))
 }
 
 fn subject(results: &Results) -> Fact {
