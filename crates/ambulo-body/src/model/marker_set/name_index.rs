@@ -65,10 +65,12 @@ impl<'s> NameIndex<'s> {
     /// The marker of a name.
     pub(super) fn find(&self, name: &RecordedName, reading: NameReading) -> Option<&'s MarkerDefinition> {
         let RecordedName { whole, rest } = name;
-        match reading {
-            NameReading::Written => self.written(whole).or_else(|| self.written(rest)),
-            NameReading::Meant => self.meant(whole).or_else(|| self.meant(rest)),
-        }
+        let find = |name| match reading {
+            NameReading::Written => self.written(name),
+            NameReading::Meant => self.meant(name),
+        };
+        // Without a beginning that all names share, both are the same.
+        find(whole).or_else(|| if rest == whole { None } else { find(rest) })
     }
 
     /// The marker with exactly this name; only the case may differ.

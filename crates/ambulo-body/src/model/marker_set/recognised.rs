@@ -94,9 +94,11 @@ impl RecognisedMarkers {
         let plain = RecordedName::all(&names);
         let index = own.map(NameIndex::new);
         let sets: Vec<&MarkerSet> = own.into_iter().chain(MarkerSet::built_in()?).collect();
-        let indices: Vec<&NameIndex<'_>> = index.iter().chain(BUILT_IN_INDICES.iter()).collect();
-        let found = vec![None; names.len()];
-        let mut search = Search { sets: &sets, indices: &indices, names: &plain, found, used: vec![] };
+        let matches = [NameReading::Written, NameReading::Meant].map(|reading| {
+            let indices = index.iter().chain(BUILT_IN_INDICES.iter());
+            indices.map(|index| plain.iter().map(|name| index.find(name, reading)).collect()).collect()
+        });
+        let mut search = Search { sets: &sets, matches, found: vec![None; names.len()], used: vec![] };
         if own.is_some() {
             [NameReading::Written, NameReading::Meant].into_iter().for_each(|reading| search.take(0, reading));
         }
@@ -169,8 +171,8 @@ impl RecognisedMarkers {
 /// A search for the sets that explain some names.
 struct Search<'a> {
     sets: &'a [&'a MarkerSet],
-    indices: &'a [&'a NameIndex<'a>],
-    names: &'a [RecordedName],
+    /// What each name is in each set: by reading, set and name.
+    matches: [Vec<Vec<Option<&'a MarkerDefinition>>>; 2],
     found: Vec<Option<&'a MarkerDefinition>>,
     /// Numbers of the sets that were used.
     used: Vec<usize>,
@@ -208,8 +210,8 @@ impl Search<'_> {
         if self.gain(set, reading) == 0 {
             return;
         }
-        for (slot, name) in self.found.iter_mut().zip(self.names).filter(|(slot, _)| slot.is_none()) {
-            *slot = self.indices[set].find(name, reading);
+        for (slot, own) in self.found.iter_mut().zip(&self.matches[reading as usize][set]) {
+            *slot = slot.or(*own);
         }
         if !self.used.contains(&set) {
             self.used.push(set);
@@ -218,8 +220,8 @@ impl Search<'_> {
 
     /// Number of further names that a set explains.
     fn gain(&self, set: usize, reading: NameReading) -> usize {
-        let left = self.names.iter().zip(&self.found).filter(|(_, found)| found.is_none());
-        left.filter(|(name, _)| self.indices[set].find(name, reading).is_some()).count()
+        let own = self.matches[reading as usize][set].iter().zip(&self.found);
+        own.filter(|(own, found)| own.is_some() && found.is_none()).count()
     }
 
     /// The error of names that no set explains.
