@@ -21,6 +21,8 @@ use crate::model::full_body::full_body;
 const STEP: f64 = 0.07;
 /// Cadences beyond the first one on either side.
 const FARTHEST: i32 = 2;
+/// Stages near a known walk before these; the finer ones would be solved twice.
+const COARSE: usize = 3;
 /// More steps of the solver near a solution.
 const POLISH: [Continuation; 2] = [
     Continuation { stiffness: 1.0, creep: 1.0, slip: 1.0, slack: 0.0002, updates: 2, steps: 30, gain: 1e-4 },
@@ -95,13 +97,17 @@ impl OptimalWalk {
         Ok((chosen.found, chosen.walk))
     }
 
-    /// The same prediction of another walk, from this one.
+    /// The same prediction of another walk, from this one, before [`POLISH`].
     fn near(&self, build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
         let known = &self.problem.problem;
         let level = full_body(build)?;
         let base = WalkProblem::over(known.span, &level, &known.soles, known.shoes, walk, &WalkCosts::default())?;
         let problem = base.of_muscles(&self.human, walk, &EffortCosts::default(), &self.conditions, 0.0);
-        let solution = problem.solve_near(&self.problem, self.solution.unknowns())?;
+        let known = self.solution.unknowns();
+        let solution = match problem.approach(&self.problem, known, &problem.near_stages()[..COARSE])? {
+            Some(solution) => solution,
+            None => problem.solve_near(&self.problem, known)?,
+        };
         Ok(OptimalWalk { human: self.human.clone(), problem, solution, conditions: self.conditions.clone() })
     }
 }

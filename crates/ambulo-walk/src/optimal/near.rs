@@ -45,15 +45,31 @@ impl WalkProblem {
     /// # Errors
     /// If the figure has joints that are not hinges or slides.
     pub fn solve_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Solution, CurvedJointError> {
-        let Some(start) = self.start_near(known, unknowns)? else { return self.solve(self.stages()) };
+        let stages = self.near_stages();
+        let Some(found) = self.approach(known, unknowns, &stages)? else { return self.solve(self.stages()) };
+        self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
+    }
+
+    /// [`NEAR_STAGES`] for this walk.
+    pub(super) fn near_stages(&self) -> [Continuation; 5] {
         let mut stages = NEAR_STAGES;
         if moves_sideways(&self.problem.model) {
             for (stage, slip) in stages.iter_mut().zip(NEAR_SLIP) {
                 stage.slip = slip;
             }
         }
-        let found = self.problem.solve_keeping(&start, &stages, &self.kept)?;
-        self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
+        stages
+    }
+
+    /// Some stages of the solution near a known one; `None` where that is no start, see [`WalkProblem::solve_near`].
+    pub(super) fn approach(
+        &self,
+        known: &WalkProblem,
+        unknowns: &[f64],
+        stages: &[Continuation],
+    ) -> Result<Option<Solution>, CurvedJointError> {
+        let start = self.start_near(known, unknowns)?;
+        start.map(|start| self.problem.solve_keeping(&start, stages, &self.kept)).transpose()
     }
 
     /// The start of this problem near a solution of a similar one; `None` if its splines do not determine all

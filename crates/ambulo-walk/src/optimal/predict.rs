@@ -15,9 +15,11 @@ use crate::dynamics::CurvedJointError;
 use crate::gait::Walk;
 use crate::model::anthropometry::{Human, SpherePart};
 use crate::model::{CoordinateId, Side};
+use std::ops::Range;
 
-/// Weights of the normative curves in the stages of a solution.
-const PEOPLE: [f64; 3] = [0.1, 0.01, 0.0];
+/// Weights of the normative curves one after the other, each with the part of [`NEAR_STAGES`] that is solved with it.
+/// The last weight alone needs the accuracy of the last stages.
+const PEOPLE: [(f64, Range<usize>); 3] = [(0.1, 0..3), (0.01, 1..3), (0.0, 1..5)];
 /// Steeper slopes are reached in steps of this size.
 const SLOPE_STEP: f64 = 0.08;
 
@@ -48,18 +50,19 @@ impl WalkProblem {
         unknowns: &[f64],
     ) -> Result<Prediction, CurvedJointError> {
         let stages = longer(&NEAR_STAGES);
+        let [(near, first), later @ ..] = PEOPLE;
         let mut unknowns = unknowns.to_vec();
         for slope in flatter_slopes(conditions.slope) {
             let flatter = WalkConditions { slope, ..conditions.clone() };
             let on_it = Human { model: human.model.on_slope(flatter.incline()), ..human.clone() };
-            let problem = self.of_muscles(&on_it, walk, costs, &flatter, PEOPLE[0]);
-            unknowns = problem.problem.solve(&unknowns, &stages)?.unknowns().to_vec();
+            let problem = self.of_muscles(&on_it, walk, costs, &flatter, near);
+            unknowns = problem.problem.solve(&unknowns, &stages[first.clone()])?.unknowns().to_vec();
         }
-        let mut problem = self.of_muscles(human, walk, costs, conditions, PEOPLE[0]);
-        let mut solution = problem.problem.solve(&unknowns, &stages)?;
-        for people in &PEOPLE[1..] {
-            problem = self.of_muscles(human, walk, costs, conditions, *people);
-            solution = problem.problem.solve(solution.unknowns(), &stages[1..])?;
+        let mut problem = self.of_muscles(human, walk, costs, conditions, near);
+        let mut solution = problem.problem.solve(&unknowns, &stages[first])?;
+        for (people, part) in later {
+            problem = self.of_muscles(human, walk, costs, conditions, people);
+            solution = problem.problem.solve(solution.unknowns(), &stages[part])?;
         }
         Ok(Prediction { problem, solution })
     }
