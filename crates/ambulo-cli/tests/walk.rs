@@ -466,7 +466,11 @@ fn a_walk_with_springs_says_what_they_and_the_body_did() {
     let bench = Workbench::empty("walk_device");
     bench.write("exo.toml", format!("[[device]]\njoint = \"ankle\"\nstiffness = {STIFFNESS}\nrest_deg = {REST_DEG}\n"));
     let run = bench.run(&["walk", "--device", "exo.toml", "--cycles", "1", "-o", "out"]);
-    assert!(run.code == Some(0) && run.stdout.contains("ankle_angle_r: the device does"), "{}", run.stdout);
+    assert!(
+        run.code == Some(0) && run.stdout.contains("ankle_angle_r and ankle_angle_l: the device does"),
+        "{}",
+        run.stdout
+    );
     let [angles, whole, body] = ["kinematics.mot", "moments.sto", "moments_biological.sto"].map(|name| {
         let table = bench.table(&format!("out/{name}"));
         move |column: &str| table.column(column).unwrap().to_vec()
@@ -495,4 +499,19 @@ fn a_walk_with_springs_says_what_they_and_the_body_did() {
     assert!(done_alone > 0.05 && taken_alone < 0.0 && (done_alone - done).abs() > 1e-3, "{done_alone} {taken_alone}");
     assert!(given > 0.01 && (given + taken).abs() < 0.01 * given, "{given} {taken}");
     assert!(done > 0.05 && braked < 0.0, "{done} {braked}");
+}
+
+/// A device without a moment changes nothing, at one joint as little as at two: neither metabolic power nor the work of
+/// the body.
+#[test]
+fn a_device_that_does_nothing_changes_nothing() {
+    let bench = Workbench::empty("walk_idle_device");
+    bench.write("idle.toml", "[[device]]\njoint = \"ankle_r\"\nstiffness = 0\n");
+    bench.run(&["walk", "--device", "idle.toml", "--cycles", "1", "--quiet", "-o", "out"]).done();
+    let made = bench.json("out/summary.json")["walk"]["prediction"].clone();
+    let (with, without) = (&made["metabolic_power_w_kg"], &made["metabolic_power_without_devices_w_kg"]);
+    assert!(with.is_f64() && with == without, "{with} {without}");
+    let work = &made["device_work"][0];
+    assert_eq!(work["device_j_kg"], serde_json::json!([0.0, 0.0]));
+    assert_eq!(work["body_j_kg"], work["body_without_device_j_kg"]);
 }

@@ -77,17 +77,23 @@ fn a_predicted_walk_says_what_it_was_asked_to_bear() {
         facts.iter().find(|fact| fact["label"] == "Device").cloned()
     };
     assert_eq!(device(&plain), None);
-    let work = json!([{"coordinate": "knee_angle_l", "device_j_kg": [0.1, -0.1], "body_j_kg": [0.2, -0.3],
-        "body_without_device_j_kg": [0.4, -0.5]}]);
+    let at = |coordinate: &str, done: f64| {
+        json!({"coordinate": coordinate, "device_j_kg": [0.1, -0.1], "body_j_kg": [done, -0.3],
+            "body_without_device_j_kg": [0.4, -0.5]})
+    };
+    let work = json!([at("knee_angle_l", 0.2), at("ankle_angle_l", 0.2), at("knee_angle_r", 0.25)]);
     let helped = walk(json!({"devices": ["knee_angle_l"], "device_work": work,
         "metabolic_power_without_devices_w_kg": 6.5}));
     let shown = device(&helped).unwrap();
     assert_eq!(shown["value"], "metabolic power 6.25 W/kg, without it 6.50 (-3.8 %)");
     assert_eq!(
         shown["note"],
-        "knee_angle_l: the device does 0.100 and takes 0.100 J/kg in a cycle, muscles and tissue do 0.200 and take \
-         0.300, without it 0.400 and 0.500"
+        "knee_angle_l and ankle_angle_l: the device does 0.100 and takes 0.100 J/kg in a cycle, muscles and tissue do \
+         0.200 and take 0.300, without it 0.400 and 0.500; knee_angle_r: the device does 0.100 and takes 0.100 J/kg in \
+         a cycle, muscles and tissue do 0.250 and take 0.300, without it 0.400 and 0.500"
     );
+    let useless = walk(json!({"devices": ["knee_angle_l"], "metabolic_power_without_devices_w_kg": 6.2501}));
+    assert_eq!(device(&useless).unwrap()["value"], "metabolic power 6.25 W/kg, without it 6.25 (+0.0 %)");
     let needed = walk(json!({"devices": ["knee_angle_l"], "no_walk_without_devices": "found no walk"}));
     assert_eq!(device(&needed).unwrap()["value"], "without it: found no walk");
 }

@@ -135,14 +135,30 @@ impl WalkPredictionSummary {
         }
     }
 
-    /// What the walk costs without its devices, in words; `None` where none is worn.
+    /// Metabolic power with the devices and without them, in words; `None` where none is worn.
     #[must_use]
     pub fn without_devices(&self) -> Option<String> {
         if let Some(reason) = &self.no_walk_without_devices {
             return Some(format!("without it: {reason}"));
         }
         let (power, with) = (self.metabolic_power_without_devices_w_kg?, self.metabolic_power_w_kg);
-        Some(format!("metabolic power {with:.2} W/kg, without it {power:.2} ({:+.1} %)", 100.0 * (with / power - 1.0)))
+        // Without the sign of a zero that rounding leaves.
+        let change = (1000.0 * (with / power - 1.0)).round() / 10.0 + 0.0;
+        Some(format!("metabolic power {with:.2} W/kg, without it {power:.2} ({change:+.1} %)"))
+    }
+
+    /// Work of devices and body in words, one text for all joints with the same numbers.
+    #[must_use]
+    pub fn device_words(&self) -> Vec<String> {
+        let mut joints: Vec<(String, String)> = Vec::new();
+        for work in &self.device_work {
+            let words = work.words();
+            match joints.iter_mut().find(|(_, known)| *known == words) {
+                Some((names, _)) => *names = format!("{names} and {}", work.coordinate),
+                None => joints.push((work.coordinate.clone(), words)),
+            }
+        }
+        joints.into_iter().map(|(names, words)| format!("{names}: {words}")).collect()
     }
 
     /// The conditions in words: slope, load, weak joints, devices, width of steps, free cadence. Empty for level
@@ -197,17 +213,16 @@ impl DeviceWorkSummary {
         }
     }
 
-    /// The work in words.
-    #[must_use]
-    pub fn words(&self) -> String {
+    /// The work in words, without the joint.
+    fn words(&self) -> String {
         let [[device, device_taken], [body, body_taken]] = [self.device_j_kg, self.body_j_kg];
         let without = self.body_without_device_j_kg.map_or_else(String::new, |[alone, alone_taken]| {
             format!(", without it {alone:.3} and {:.3}", -alone_taken)
         });
         format!(
-            "{}: the device does {device:.3} and takes {:.3} J/kg in a cycle, muscles and tissue do {body:.3} and take \
+            "the device does {device:.3} and takes {:.3} J/kg in a cycle, muscles and tissue do {body:.3} and take \
              {:.3}{without}",
-            self.coordinate, -device_taken, -body_taken
+            -device_taken, -body_taken
         )
     }
 }

@@ -11,8 +11,8 @@ use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
 use ambulo_results::{
-    DeviceWorkSummary, FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary,
-    TrackingSummary, WalkSummary,
+    FilterSummary, ForceUnit, Ground, GroundOrigin, PAGE, PeakSummary, ResidualSummary, Summary, TrackingSummary,
+    WalkSummary,
 };
 use anyhow::Result;
 use std::path::Path;
@@ -93,8 +93,7 @@ fn outline(summary: &Summary) -> Result<()> {
         let cost = format!("{:.1} J/kg/m", made.cost_of_transport_j_kg_m);
         let parts = made.conditions().into_iter().chain([format!("cost of transport {cost}")]);
         print_line(&format!("  walk      {}", parts.collect::<Vec<_>>().join(", ")))?;
-        let work = made.device_work.iter().map(DeviceWorkSummary::words);
-        let lines = made.without_devices().into_iter().chain(work);
+        let lines = made.without_devices().into_iter().chain(made.device_words());
         lines.into_iter().try_for_each(|words| print_line(&format!("  device    {words}")))?;
     }
     let [from, to] = summary.window_s;

@@ -6,7 +6,7 @@ use crate::page::contract::{Fact, PageSource};
 use ambulo::analysis::{MassSource, StrideQuantity};
 use ambulo::numerics::elementary::{atan2, hypot};
 use ambulo::study::MassState;
-use ambulo_results::{ChangeUnit, Convention, DeviceWorkSummary, FilterKind, FilterSummary};
+use ambulo_results::{ChangeUnit, Convention, FilterKind, FilterSummary};
 
 /// Below this speed a body stays in place [m/s].
 const STANDING_M_S: f64 = 0.1;
@@ -96,11 +96,10 @@ fn conditions(results: &Results) -> Option<Fact> {
     Some(fact("Conditions", conditions, Some(format!("{cost}{axes}"))))
 }
 
-/// What devices at the joints of a predicted walk do, and what the walk needs without them.
+/// Metabolic power of a predicted walk with devices and without them; their work and that of the body at their joints.
 pub(super) fn devices(results: &Results) -> Option<Fact> {
     let made = results.summary.walk.as_ref()?.prediction.as_ref()?;
-    let work: Vec<String> = made.device_work.iter().map(DeviceWorkSummary::words).collect();
-    Some(fact("Device", made.without_devices()?, Some(work.join("; "))))
+    Some(fact("Device", made.without_devices()?, Some(made.device_words().join("; "))))
 }
 
 fn subject(results: &Results) -> Fact {
