@@ -164,8 +164,8 @@ pub enum SyntheticError {
     /// A free cadence is found, not given.
     #[error(
         "the gait `{gait}`: found a length or a frequency of its steps, and a free cadence; expected one of them, \
-         because a free cadence and its step length follow from the speed. hint: give the speed alone, or leave the \
-         cadence as it is"
+         because a free cadence and its step length follow from the speed. hint: give the speed alone, or do not ask \
+         for a free cadence"
     )]
     GivenSteps {
         /// Name of the gait.
