@@ -48,14 +48,17 @@ async function script(entry, define = {}, format = "iife") {
   return Buffer.from(result.outputFiles[0].contents);
 }
 
-/** What the page may do until the program is loaded; engine.ts forbids the rest then. The report's own script is known by its hash. */
+/** How a policy names a script. */
+const named = (script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`;
+/** The script that is added to pages of results that have none. */
+const links = await script("links");
+
+/** What the page may do until the program is loaded; engine.ts forbids the rest then. Scripts in pages of results are known by their hash. */
 function policy() {
-  const report = createHash("sha256")
-    .update(readFileSync(join(REPORT, "viewer.js")))
-    .digest("base64");
+  const report = readFileSync(join(REPORT, "viewer.js"));
   return [
     "default-src 'none'",
-    `script-src 'self' 'wasm-unsafe-eval' 'sha256-${report}'`,
+    `script-src 'self' 'wasm-unsafe-eval' ${named(report)} ${named(links)}`,
     "style-src 'self' 'unsafe-inline'",
     "img-src 'self' data: blob:",
     "font-src data:",
@@ -84,6 +87,8 @@ const names = {
   WORKER: add("worker.js", await script("worker")),
   FAMILY: add("walks.json", readFileSync(join(here, "family/walks.json"))),
   OFFLINE: "offline.js",
+  LINKS: links.toString(),
+  LINKS_NAME: named(links),
 };
 const places = {
   policy: policy(),

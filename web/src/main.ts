@@ -18,6 +18,9 @@ declare const PROGRAM: string;
 declare const WORKER: string;
 declare const FAMILY: string;
 declare const OFFLINE: string;
+/** The script that follows links between pages of results, and its name in a policy. */
+declare const LINKS: string;
+declare const LINKS_NAME: string;
 
 const OUT = `${OUTPUT}/`;
 /** The page that is shown first: that of a visit or of a trial. */
@@ -117,6 +120,7 @@ class Page {
       field(id).addEventListener("input", () => this.changed());
     }
     byId<HTMLSelectElement>("pages").addEventListener("change", () => this.showPage());
+    addEventListener("message", ({ data, source }) => this.follow(data?.open, source));
     byId("options").addEventListener("submit", (event) => {
       event.preventDefault();
       this.compute();
@@ -479,6 +483,17 @@ class Page {
     }
   }
 
+  /** Shows the page that a link in the shown one leads to. */
+  private follow(to: unknown, source: MessageEventSource | null): void {
+    const choice = byId<HTMLSelectElement>("pages");
+    const isShown = document.querySelector<HTMLIFrameElement>("#page iframe")?.contentWindow === source;
+    const option = [...choice.options].find(({ value }) => value === to);
+    if (isShown && option) {
+      option.selected = true;
+      this.showPage();
+    }
+  }
+
   /** Shows an error and marks the field or file that it is about. */
   private fail(message: string): void {
     const error = byId("error");
@@ -558,13 +573,26 @@ function frame(report: Uint8Array, name: string, loaded: () => void): HTMLIFrame
   const made = document.createElement("iframe");
   made.title = `Report: ${name}`;
   made.setAttribute("sandbox", SANDBOX);
-  made.src = URL.createObjectURL(new Blob([report as Uint8Array<ArrayBuffer>], { type: "text/html" }));
+  made.src = URL.createObjectURL(new Blob([linked(report) as Uint8Array<ArrayBuffer>], { type: "text/html" }));
   const ready = (): void => {
     URL.revokeObjectURL(made.src);
     loaded();
   };
   made.addEventListener("load", ready, { once: true });
   return made;
+}
+
+/** A page without scripts gets the one that follows its links. */
+function linked(page: Uint8Array): Uint8Array {
+  const html = new TextDecoder().decode(page);
+  const [before, after] = ["default-src 'none'; ", "style-src"];
+  if (!html.includes(`content="${before}${after}`)) {
+    return page;
+  }
+  const allowed = html.replace(before + after, () => `${before}script-src ${LINKS_NAME}; ${after}`);
+  return new TextEncoder().encode(
+    allowed.replace(/<\/body>\s*<\/html>\s*$/, () => `<script>${LINKS}</script></body></html>`),
+  );
 }
 
 function save(content: Blob, name: string): void {

@@ -271,6 +271,14 @@ test("several walks of one person give the page of the session, also from a drop
     await isSame(context, page, words, paths, name);
     mkdirSync(SHOTS, { recursive: true });
     await page.screenshot({ path: join(SHOTS, "web-session.png") });
+    // A trial in the list leads to its page.
+    const link = session?.locator("#trials a").first();
+    const trial = decodeURIComponent((await link?.getAttribute("href")) ?? "");
+    await link?.click();
+    await page.waitForFunction((trial) => document.querySelector<HTMLSelectElement>("#pages")?.value === trial, trial);
+    const heading = page.frameLocator("#page iframe").locator("h1").first();
+    await heading.waitFor();
+    assert.doesNotMatch((await heading.textContent()) ?? "", /^Gait session/);
     assert.deepEqual(complaints, []);
   });
 });
