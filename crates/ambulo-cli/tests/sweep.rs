@@ -119,3 +119,18 @@ fn lists_that_are_none_and_sweeps_without_a_walk_are_refused() {
         assert!(!bench.exists("out/summary.json"), "{words:?}");
     }
 }
+
+/// The walk at its own cadence is that of `ambulo walk`, and the page says that the cadence is its own.
+#[test]
+fn walks_of_a_sweep_choose_their_cadence() {
+    let bench = Workbench::empty("sweep_cadence");
+    bench.run(&["sweep", "--speed", "1.2", "--free-cadence", "--quiet", "-o", "all"]).done();
+    bench.run(&["walk", "--speed", "1.2", "--free-cadence", "--cycles", "1", "--quiet", "-o", "one"]).done();
+    let walks = rows(&bench.text("all/walks.csv"));
+    let prediction = bench.json("one/summary.json")["walk"]["prediction"].clone();
+    let cost = prediction["cost_of_transport_j_kg_m"].as_f64().unwrap();
+    let [own, usual] = [number(&walks[0], "cadence_steps_min"), prediction["usual_cadence_steps_min"].as_f64().unwrap()];
+    assert!((own - usual).abs() > 1.0, "{own} {usual} steps/min");
+    assert!((number(&walks[0], "cost_of_transport_j_kg_m") - cost).abs() < 1e-9, "{cost} {walks:?}");
+    assert!(bench.text("all/report.html").contains("each at its own cadence"));
+}

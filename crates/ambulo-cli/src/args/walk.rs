@@ -139,8 +139,8 @@ pub(crate) struct WalkArgs {
   ambulo sweep --speed 1.2 --slope=-8,0,8 --load 0,15 -o hills
 
 Each combination of the values is one walk in three dimensions, as `ambulo walk` computes it with these
-options: near normative curves, or predicted if a slope, a load, a weak joint or a device is given. LIST is
-numbers separated by commas, or FROM:TO:STEP. A walk takes some seconds; as many walks as there are
+options: near normative curves, or predicted if a slope, a load, a weak joint, a device or a free cadence is
+given. LIST is numbers separated by commas, or FROM:TO:STEP. A walk takes some seconds; as many walks as there are
 processors are computed at the same time.
 
 Files written to DIR: sweep.csv (angle, rate, moment, power and ground force over the gait cycle of each foot
@@ -181,6 +181,10 @@ pub(crate) struct SweepArgs {
     /// Predict all walks: minimise muscle effort and follow no recorded curves.
     #[arg(long)]
     pub(crate) predict: bool,
+    /// Choose cadence and step length of each walk too, for the least cost at its speed; implies predicted walks, takes
+    /// about three times as long.
+    #[arg(long)]
+    pub(crate) free_cadence: bool,
     /// Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997.
     #[arg(long, value_name = "NAME", default_value = Job::SEGMENTS.name())]
     pub(crate) figure: String,
@@ -348,6 +352,7 @@ impl Default for SweepArgs {
             weak: Vec::new(),
             device: None,
             predict: false,
+            free_cadence: false,
             figure: Job::SEGMENTS.name().to_owned(),
             output: OUT.into(),
             keep: Vec::new(),

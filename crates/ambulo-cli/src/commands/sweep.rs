@@ -153,7 +153,8 @@ impl Sweep {
         let gait = Gait::named("free")?;
         let build = Build::usual(segments(&args.figure)?);
         let devices: Vec<Device> = read_devices(args.device.as_deref(), read)?;
-        let conditions = WalkConditions { strengths: args.weak.clone(), devices, ..WalkConditions::default() };
+        let (strengths, free_cadence) = (args.weak.clone(), args.free_cadence);
+        let conditions = WalkConditions { strengths, devices, free_cadence, ..WalkConditions::default() };
         let is_predicted =
             args.predict || args.slope.is_some() || args.load.is_some() || conditions != WalkConditions::default();
         let points = points(args, &gait, &build)?;
@@ -179,7 +180,8 @@ impl Sweep {
             .collect();
         let devices: Vec<String> =
             self.conditions.devices.iter().map(|device| format!("a device at {}", device.coordinate)).collect();
-        format!("Walks in three dimensions, {mode}{}{}", named(&weak), named(&devices))
+        let cadence = if self.conditions.free_cadence { ", each at its own cadence" } else { "" };
+        format!("Walks in three dimensions, {mode}{}{}{cadence}", named(&weak), named(&devices))
     }
 
     /// Computes all walks, in the order of the conditions.
