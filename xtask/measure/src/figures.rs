@@ -1,21 +1,17 @@
-//! Draws the pictures of the documents from the output of the `ambulo` command: `cargo xtask figures`.
+//! Draws the picture of the documents from the output of the `ambulo` command: `cargo xtask figures`.
 //!
-//! `ambulo forces` (without recordings `ambulo demo`) writes SVG into `target/figures`; a headless Chromium renders the
-//! figures that the documents use as PNG in `docs/images`.
+//! `ambulo demo` writes its report into `target/figures`, of which a headless Chromium takes a screenshot for
+//! `docs/images`. It needs no recording.
 
-use crate::workspace::{self, Walk};
+use crate::workspace;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Figures that the documents use, by name without ending.
-const PICTURES: [&str; 1] = ["moments"];
 /// Names of the Chromium program, in the order in which they are tried.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-/// CSS pixels per millimetre: 96 per inch.
-const PIXELS_A_MILLIMETRE: f64 = 96.0 / 25.4;
 /// Time limit; Chromium needs about a second.
 const TIMEOUT: Duration = Duration::from_secs(60);
 /// Interval at which Chromium's end is checked.
@@ -37,42 +33,25 @@ const FLAGS: [&str; 10] = [
     "--force-device-scale-factor=2",
 ];
 
-/// Draws every picture and prints its path.
-#[expect(clippy::print_stdout, reason = "the written files are the command's result")]
+/// Draws the picture and prints its path.
+#[expect(clippy::print_stdout, reason = "the written file is the command's result")]
 pub(crate) fn run() -> Result<(), String> {
     let browser = find_browser()?;
     let folder = workspace::root().join("target/figures");
     let program = workspace::build_program()?;
-    let mut command = match Walk::find() {
-        Some(walk) => walk.command(&program, &folder),
-        None => demo(&program, &folder),
-    };
+    let mut command = Command::new(&program);
     // The folder may have results of an earlier version.
-    command.arg("--force");
-    // Exit code 1: the run ended with an infeasible verdict; its figures exist.
-    let status =
-        command.stdout(Stdio::null()).status().map_err(|e| format!("{}: cannot start: {e}", program.display()))?;
-    if !matches!(status.code(), Some(0 | 1)) {
-        return Err(format!("`ambulo` failed ({status}), see above"));
+    command.arg("demo").arg("-o").arg(&folder).arg("--force").stdout(Stdio::null());
+    let status = command.status().map_err(|e| format!("{}: cannot start: {e}", program.display()))?;
+    if !status.success() {
+        return Err(format!("`ambulo demo` failed ({status}), see above"));
     }
     let images = workspace::root().join("docs/images");
     fs::create_dir_all(&images).map_err(|e| format!("{}: cannot create: {e}", images.display()))?;
-    for name in PICTURES {
-        let svg = folder.join("figures").join(name).with_extension("svg");
-        let png = images.join(name).with_extension("png");
-        draw_svg(browser, &svg, &png)?;
-        println!("written: {}", png.display());
-    }
     let png = images.join("report.png");
     draw(browser, &folder.join("report.html"), PAGE, &png)?;
     println!("written: {}", png.display());
     Ok(())
-}
-
-fn demo(program: &Path, folder: &Path) -> Command {
-    let mut command = Command::new(program);
-    command.arg("demo").arg("-o").arg(folder);
-    command
 }
 
 fn find_browser() -> Result<&'static str, String> {
@@ -80,13 +59,6 @@ fn find_browser() -> Result<&'static str, String> {
     BROWSERS.into_iter().find(starts).ok_or_else(|| {
         format!("none of {} is installed\nhint: on Debian, `apt-get install chromium`", BROWSERS.join(", "))
     })
-}
-
-/// Renders an SVG file as PNG.
-fn draw_svg(browser: &str, svg: &Path, png: &Path) -> Result<(), String> {
-    let at = svg.display();
-    let text = fs::read_to_string(svg).map_err(|e| format!("{at}: cannot read: {e}"))?;
-    draw(browser, svg, size(&text).map_err(|e| format!("{at}: {e}"))?, png)
 }
 
 /// Takes a screenshot of a file in a browser window of this size, as PNG.
@@ -145,43 +117,9 @@ fn file_address(path: &Path) -> Result<String, String> {
     Ok(address)
 }
 
-/// Width and height of an SVG document in its units, rounded up.
-fn size(svg: &str) -> Result<[u32; 2], String> {
-    let begin = svg.find("<svg").ok_or("no <svg> element")?;
-    let tag = svg[begin..].split('>').next().unwrap_or_default();
-    Ok([length(tag, "width")?, length(tag, "height")?])
-}
-
-fn length(tag: &str, name: &str) -> Result<u32, String> {
-    let after = tag.split_once(&format!(" {name}=\"")).ok_or_else(|| format!("<svg> has no {name}"))?.1;
-    let value = after.split('"').next().unwrap_or_default();
-    let (digits, pixels) = match value.strip_suffix("mm") {
-        Some(digits) => (digits, PIXELS_A_MILLIMETRE),
-        None => (value.trim_end_matches("px"), 1.0),
-    };
-    let number: f64 = digits.parse().map_err(|e| format!("<svg {name}=\"{value}\">: {e}"))?;
-    let number = number * pixels;
-    if !(number > 0.0 && number < 1e5) {
-        return Err(format!("<svg {name}=\"{value}\">, expected a length above 0"));
-    }
-    Ok(number.ceil() as u32)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_size_is_that_of_the_svg_element_alone() {
-        let svg = "<?xml version=\"1.0\"?>\n<svg width=\"990\" height=\"315.5px\" stroke-width=\"2\"><rect \
-            width=\"5\"/></svg>";
-        assert_eq!(size(svg), Ok([990, 316]));
-        assert_eq!(size("<svg width=\"25.4mm\" height=\"50.8mm\">"), Ok([96, 192]));
-        let message = size("<svg stroke-width=\"2\"><rect width=\"5\" height=\"5\"/></svg>").unwrap_err();
-        assert_eq!(message, "<svg> has no width");
-        assert!(size("<svg width=\"100%\" height=\"5\">").unwrap_err().starts_with("<svg width=\"100%\">"));
-        assert!(size("<svg width=\"-1\" height=\"5\">").unwrap_err().ends_with("expected a length above 0"));
-    }
 
     #[test]
     fn addresses_have_no_sign_that_a_browser_would_read_otherwise() {
