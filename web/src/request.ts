@@ -391,6 +391,8 @@ export interface SweepArgs {
   device?: string | null;
   /** Predict all walks: minimise muscle effort and follow no recorded curves. */
   predict?: boolean;
+  /** Choose cadence and step length of each walk too, for the least cost at its speed; implies predicted walks, takes about three times as long. */
+  free_cadence?: boolean;
   /** Table of segment masses: de-leva-male, de-leva-female, dempster-winter or faure-1997. */
   figure?: string;
   /** Folder for the results. */
