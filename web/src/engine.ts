@@ -7,12 +7,12 @@ import type { FromWorker, ToWorker } from "./worker";
 /** Content-Security-Policy from the moment when program and page are loaded: nothing may be loaded, sent or opened any more. */
 export function forbidConnections(document: Document): void {
   const first = document.querySelector<HTMLMetaElement>('meta[http-equiv="Content-Security-Policy"]');
-  const report = first?.content.match(/'sha256-[^']+'/)?.[0] ?? "'none'";
+  const named = first?.content.match(/'sha256-[^']+'/g)?.join(" ") ?? "'none'";
   const meta = document.createElement("meta");
   meta.httpEquiv = "Content-Security-Policy";
   meta.content = [
     "default-src 'none'",
-    `script-src 'wasm-unsafe-eval' ${report}`,
+    `script-src 'wasm-unsafe-eval' ${named}`,
     "style-src 'unsafe-inline'",
     "img-src data: blob:",
     "font-src data:",
