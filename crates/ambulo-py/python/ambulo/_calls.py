@@ -798,6 +798,7 @@ def sweep(
     weak: Sequence[str] | None = None,
     device: Path | None = None,
     predict: bool = False,
+    free_cadence: bool = False,
     figure: str | None = None,
     keep: Sequence[str] | None = None,
 ) -> Result:
@@ -823,6 +824,8 @@ def sweep(
         Devices at joints in all walks: ``.toml``.
     predict : bool, optional
         Predict all walks.
+    free_cadence : bool, optional
+        Choose cadence and step length of each walk too, for the least cost at its speed.
     figure : str, optional
         Table of segment masses.
     keep : sequence of str, optional
@@ -844,7 +847,8 @@ def sweep(
     sources: docs/OPTIMAL.md.
     """
     swept = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}
-    others = {"weak": listed(weak), "device": device, "predict": predict, "figure": figure, "keep": listed(keep)}
+    predicted = {"weak": listed(weak), "device": device, "predict": predict, "free_cadence": free_cadence}
+    others = predicted | {"figure": figure, "keep": listed(keep)}
     return _warned(_ambulo.run({"sweep": {name: numbers(values) for name, values in swept.items()} | others}))
 
 
