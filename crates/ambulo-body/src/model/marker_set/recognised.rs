@@ -171,7 +171,7 @@ impl RecognisedMarkers {
 /// A search for the sets that explain some names.
 struct Search<'a> {
     sets: &'a [&'a MarkerSet],
-    /// What each name is in each set: by reading, set and name.
+    /// The marker of a set that each name of the file means, if any. Indices: reading of the name, set, name.
     matches: [Vec<Vec<Option<&'a MarkerDefinition>>>; 2],
     found: Vec<Option<&'a MarkerDefinition>>,
     /// Numbers of the sets that were used.
