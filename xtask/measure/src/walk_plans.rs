@@ -2,15 +2,44 @@
 
 use crate::workspace;
 use ambulo::findings::Findings;
-use ambulo::gait::{Gait, Walk};
+use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, SegmentTable};
-use ambulo::optimal::{NO_ROOT_FORCE, OptimalWalk, SPATIAL_STAGES, WalkPlan};
+use ambulo::optimal::{NO_ROOT_FORCE, OptimalWalk, SPATIAL_STAGES, StandingMovements, WalkPlan};
 use std::fs;
 
 const GAITS: [&str; 3] = ["free", "slow", "fast"];
 
-#[expect(clippy::print_stderr, reason = "the command says what it wrote")]
 pub(crate) fn run() -> Result<(), String> {
+    walks()?;
+    movements()
+}
+
+#[expect(clippy::print_stderr, reason = "the command says what it wrote")]
+fn write(name: &str, plan: &WalkPlan) -> Result<(), String> {
+    let path = workspace::root().join(format!("crates/ambulo-walk/data/walks/{name}.toml"));
+    fs::write(&path, plan.to_toml()).map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+    eprintln!("written: {}", path.display());
+    Ok(())
+}
+
+/// Movements between a walk and standing.
+fn movements() -> Result<(), String> {
+    let table = SegmentTable::DeLevaMale;
+    let build = Build::usual(table);
+    let human = build.human().map_err(|e| e.to_string())?;
+    let mut gait = Gait::named("free").map_err(|e| e.to_string())?;
+    gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&human)));
+    let walk = Walk::new(&gait, human.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
+    let found = OptimalWalk::find(&build, &walk).map_err(|e| e.to_string())?;
+    let plans = StandingMovements::plans(&found, &walk).map_err(|e| e.to_string())?;
+    ["stop", "start", "steps"]
+        .iter()
+        .zip(&plans)
+        .try_for_each(|(movement, plan)| write(&format!("{}-{movement}", table.name()), plan))
+}
+
+#[expect(clippy::print_stderr, reason = "the command says what it found")]
+fn walks() -> Result<(), String> {
     let mut known: Vec<OptimalWalk> = Vec::new();
     for table in SegmentTable::ALL {
         let build = Build::usual(table);
@@ -19,12 +48,9 @@ pub(crate) fn run() -> Result<(), String> {
             let gait = Gait::named(name).map_err(|e| e.to_string())?;
             let walk = Walk::new(&gait, leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
             let found = best(&build, &walk, &known)?;
-            let path = workspace::root().join(format!("crates/ambulo-walk/data/walks/{}-{name}.toml", table.name()));
-            fs::write(&path, WalkPlan::new(found.human.build, &walk, &found.solution).to_toml())
-                .map_err(|e| format!("{}: cannot write: {e}", path.display()))?;
+            write(&format!("{}-{name}", table.name()), &WalkPlan::new(found.human.build, &walk, &found.solution))?;
             eprintln!(
-                "written: {}  root {:.1e}  cost {:.1}",
-                path.display(),
+                "root {:.1e}  cost {:.1}",
                 found.solution.progress.last().map_or(f64::NAN, |p| p.root.1),
                 cost(&found)
             );

@@ -34,6 +34,12 @@ impl StepMap {
     pub fn after(&self, state: &DVector<f64>, inputs: &DVector<f64>) -> DVector<f64> {
         &self.by_state * state + &self.by_input * inputs
     }
+
+    /// The map at a share of the way to another one.
+    pub(super) fn mixed(&self, other: &StepMap, share: f64) -> StepMap {
+        let mix = |own: &DMatrix<f64>, other: &DMatrix<f64>| own * (1.0 - share) + other * share;
+        StepMap { by_state: mix(&self.by_state, &other.by_state), by_input: mix(&self.by_input, &other.by_input) }
+    }
 }
 
 /// P is periodic when it changes by less than this share in a doubling; the next one would change it by the square.

@@ -13,7 +13,7 @@ use super::near::{NEAR_STAGES, longer};
 use super::objective::{Bound, Quantity, Term};
 use super::problem::Problem;
 use super::solution::Solution;
-use super::solve::Continuation;
+use super::solve::{Continuation, NO_ROOT_FORCE};
 use super::walk::{STAGES, soles_with_width};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
@@ -182,20 +182,31 @@ impl MovementProblem {
     /// If the figure has joints that are not hinges or slides.
     pub fn solve(&self) -> Result<Solution, CurvedJointError> {
         let near = self.guided(1.0)?.solve(&self.guess, &STAGES)?;
-        self.unguided(&self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?)
+        self.unguided(self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?.unknowns())
     }
 
     /// As [`MovementProblem::solve`], in less time, where the first guess is near the solution.
     pub(super) fn solve_near_guess(&self) -> Result<Solution, CurvedJointError> {
-        self.unguided(&self.guided(1.0)?.solve(&self.guess, &STAGES)?)
+        self.unguided(self.guided(1.0)?.solve(&self.guess, &STAGES)?.unknowns())
     }
 
-    /// Solves the problem without the first guess, from a solution near it.
-    fn unguided(&self, guided: &Solution) -> Result<Solution, CurvedJointError> {
+    /// The solution near some unknowns; where they are one (`is_solution`) and leave no force at the root, as they are.
+    pub(super) fn solve_from(&self, start: &[f64], is_solution: bool) -> Result<Solution, CurvedJointError> {
+        if is_solution {
+            let known = self.problem.at(start)?;
+            if known.unbalanced(NO_ROOT_FORCE).is_none() {
+                return Ok(known);
+            }
+        }
+        self.unguided(start)
+    }
+
+    /// Solves the problem without the first guess, from unknowns near the solution.
+    fn unguided(&self, start: &[f64]) -> Result<Solution, CurvedJointError> {
         let stages = longer(&NEAR_STAGES);
         let on = Continuation::on(&stages);
         // Where the last stage alone is stuck, those before it lead out.
-        self.problem.balanced(self.problem.solve(guided.unknowns(), &stages)?, &[&on, &stages, &on], &[])
+        self.problem.balanced(self.problem.solve(start, &stages)?, &[&on, &stages, &on], &[])
     }
 
     /// The problem with a cost of deviations from the first guess.

@@ -2,8 +2,10 @@
 //!
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and
 //! cadence needs no solution; a test checks that the files solve the present problem. Other walks are solved from the
-//! plan with the nearest speed. Made by `cargo xtask walk-plans`.
+//! plan with the nearest speed. So are movements between the slowest walk and standing; their files have changes from
+//! the first guess. Made by `cargo xtask walk-plans`.
 
+use super::error::STEPS_ON_THE_SPOT;
 use super::solution::Solution;
 use crate::findings::Findings;
 use crate::gait::{Gait, Speed, Walk};
@@ -30,7 +32,14 @@ const FILES: [(SegmentTable, &str); 12] = [
     (SegmentTable::Faure1997, include_str!("../../data/walks/faure-1997-fast.toml")),
 ];
 
-/// A solved walk: spline coefficients of a figure's walk at a speed.
+/// Movements between a walk and standing ([`StandingMovements::plans`](super::StandingMovements::plans)).
+const MOVEMENTS: [(&str, &str); 3] = [
+    ("stop", include_str!("../../data/walks/de-leva-male-stop.toml")),
+    ("start", include_str!("../../data/walks/de-leva-male-start.toml")),
+    (STEPS_ON_THE_SPOT, include_str!("../../data/walks/de-leva-male-steps.toml")),
+];
+
+/// A solved walk: spline coefficients of a figure's walk at a speed. Or a movement between that walk and standing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WalkPlan {
     /// The figure.
@@ -69,6 +78,18 @@ impl WalkPlan {
         let apart = |plan: &WalkPlan| (plan.speed - walk.dimensionless_speed()).abs();
         let plan = WalkPlan::built_in(table)?.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         Ok(plan.and_then(|plan| plan.walk().map(|walk| (plan, walk))))
+    }
+
+    /// The built-in plan of a movement between a walk and standing, if there is one. Its speed and cycle are the
+    /// walk's, its coefficients changes from the first guess.
+    pub(super) fn of_movement(movement: &str) -> Result<Option<WalkPlan>, TomlError> {
+        MOVEMENTS.iter().find(|(name, _)| *name == movement).map(|(_, text)| WalkPlan::from_toml(text)).transpose()
+    }
+
+    /// Whether speed and cycle are those of a solved walk of the same figure.
+    pub(super) fn is_of(&self, solved: &Solution) -> bool {
+        let is_same = |walk: Walk| (walk.speed() - solved.speed()).abs() < SAME;
+        (self.cycle_s - solved.cycle_s()).abs() < SAME && self.walk().is_some_and(is_same)
     }
 
     /// The walk that the plan solves.
@@ -160,8 +181,8 @@ impl WalkPlan {
         };
         let rows: String = self.coefficients.chunks(names.len().max(1)).map(row).collect();
         format!(
-            "# Optimal walk of a built-in figure: spline coefficients of half a cycle [rad or m], docs/OPTIMAL.md. \
-             Made by `cargo xtask walk-plans`.\nfigure = \"{}\"\nmass = {mass}\nheight = {height}\nspeed = {}\ncycle_s \
+            "# Optimal motion of a built-in figure: spline coefficients [rad or m], docs/OPTIMAL.md. Made by \
+             `cargo xtask walk-plans`.\nfigure = \"{}\"\nmass = {mass}\nheight = {height}\nspeed = {}\ncycle_s \
              = {}\ncoordinates = [{}]\ncoefficients = [\n{rows}]\n",
             table.name(),
             self.speed,

@@ -19,17 +19,20 @@
 //! (Hof, Gazendam, Sinke 2005; unverified).
 
 use super::error::{OptimalWalkError, STEPS_ON_THE_SPOT};
+use super::find::OptimalWalk;
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::movement::{End, Key, MovementProblem, Nearness, posture};
 use super::muscles::EffortCosts;
 use super::objective::{Bound, Quantity};
+use super::plan::WalkPlan;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::NO_ROOT_FORCE;
 use crate::dynamics::CurvedJointError;
+use crate::gait::Walk;
 use crate::model::anthropometry::{Human, SpherePart};
-use crate::model::{CoordinateId, Movement, Side};
+use crate::model::{CoordinateId, CoordinateKind, Movement, Side};
 
 /// Dimensionless speed V/√(gL) of a walk from which figures stop: 0.7 m/s for a man of 1.75 m.
 const STOPPING_SPEED: f64 = 0.235;
@@ -181,6 +184,26 @@ impl StandingMovements {
         Ok(StandingMovements { steps: Some(steps), ..self })
     }
 
+    /// Stop, start and steps on the spot of a figure in three dimensions, solved from their first guesses. Coefficients
+    /// are changes from the first guess, as in the files of data/walks.
+    ///
+    /// # Errors
+    /// As [`StandingMovements::find`].
+    pub fn plans(found: &OptimalWalk, walk: &Walk) -> Result<Vec<WalkPlan>, OptimalWalkError> {
+        let (human, solution) = (found.figure(), &found.solution);
+        let mut rest: Option<Vec<f64>> = None;
+        let mut plans = Vec::new();
+        for (movement, outline) in [("stop", &STOP), ("start", &START), (STEPS_ON_THE_SPOT, &STEPS)] {
+            let problem = joining(&human, solution, outline, rest.as_deref())?;
+            let made = judged(problem.solve_near_guess()?, solution, movement, outline)?;
+            let mut plan = WalkPlan::new(human.build, walk, &made);
+            plan.coefficients.iter_mut().zip(&problem.guess).for_each(|(value, guess)| *value -= guess);
+            rest.get_or_insert_with(|| at_rest(&made));
+            plans.push(plan);
+        }
+        Ok(plans)
+    }
+
     /// Whether the stop begins in a walk, and the start ends in it.
     #[must_use]
     pub fn join(&self, walk: &Solution) -> bool {
@@ -196,7 +219,8 @@ fn at_rest(stop: &Solution) -> Vec<f64> {
     stop.instant(stop.problem().duration_s).posture[0].clone()
 }
 
-/// A movement; with the posture of standing, one from it.
+/// A movement; with the posture of standing, one from it. It is the built-in one, or is solved from that, or else from
+/// its first guess.
 fn solved(
     human: &Human,
     walk: &Solution,
@@ -204,7 +228,48 @@ fn solved(
     outline: &Outline,
     standing: Option<&[f64]>,
 ) -> Result<Solution, OptimalWalkError> {
-    let (solution, speed) = (joining(human, walk, outline, standing)?.solve_near_guess()?, walk.speed());
+    let problem = joining(human, walk, outline, standing)?;
+    if let Some((known, start)) = from_plan(human, walk, movement, &problem)? {
+        let solution = problem.solve_from(&start, known.build == human.build && known.is_of(walk))?;
+        if let Ok(solution) = judged(solution, walk, movement, outline) {
+            return Ok(solution);
+        }
+    }
+    judged(problem.solve_near_guess()?, walk, movement, outline)
+}
+
+/// The built-in plan of a movement, and unknowns that differ from the first guess as the plan does: translations grow
+/// with leg length. None where the joints or the duration are not those of the plan.
+fn from_plan(
+    human: &Human,
+    walk: &Solution,
+    movement: &str,
+    problem: &MovementProblem,
+) -> Result<Option<(WalkPlan, Vec<f64>)>, OptimalWalkError> {
+    let Some(plan) = WalkPlan::of_movement(movement)? else { return Ok(None) };
+    let coordinates = human.model.coordinates();
+    let has_joints = coordinates.iter().map(|coordinate| &coordinate.name).eq(&plan.coordinates);
+    if !has_joints || plan.coefficients.len() != problem.guess.len() {
+        return Ok(None);
+    }
+    let larger = walk.problem().length_m / plan.build.human()?.dimensions.leg_length;
+    let changes = plan.coefficients.iter().zip(coordinates.iter().cycle());
+    let start = problem.guess.iter().zip(changes).map(|(guess, (change, coordinate))| match coordinate.kind {
+        CoordinateKind::Translation => guess + larger * change,
+        _ => guess + change,
+    });
+    let start = start.collect();
+    Ok(Some((plan, start)))
+}
+
+/// A solution, unless it is no movement between the walk and standing.
+fn judged(
+    solution: Solution,
+    walk: &Solution,
+    movement: &'static str,
+    outline: &Outline,
+) -> Result<Solution, OptimalWalkError> {
+    let speed = walk.speed();
     match solution.unbalanced(NO_ROOT_FORCE) {
         Some(unbalanced) => Err(OptimalWalkError::NoMovement { movement, speed, unbalanced }),
         None if hops(&solution) => Err(OptimalWalkError::Hops { movement, speed }),
