@@ -6,12 +6,13 @@ use ambulo_walk::engine::StepSettings;
 use ambulo_walk::findings::Findings;
 use ambulo_walk::gait::{Gait, Walk};
 use ambulo_walk::internals::{
-    CyclePlan, DIFFERENCES, FigureWorld, Impedance, PlannedStep, Root, mirror, with_impedances,
+    Costs, CyclePlan, DIFFERENCES, FigureWorld, Impedance, PlannedStep, Root, StepMap, mirror, with_impedances,
 };
 use ambulo_walk::kinematics::Posture;
 use ambulo_walk::model::anthropometry::{Build, SegmentTable};
 use ambulo_walk::model::full_body::full_body;
 use ambulo_walk::optimal::{OptimalWalk, StrengthCurve};
+use nalgebra::DMatrix;
 
 /// The strength of a giant.
 fn strong() -> StrengthCurve {
@@ -93,6 +94,61 @@ fn forward_differences_agree_with_central_ones_along_a_walk() {
     println!("{} maps: apart by {median:.1e} (median), {most:.1e} (most)", apart.len());
     assert!(median < 1e-5 && most < 2e-4, "{median} {most}");
     assert!(median > 0.0, "the differences are the same");
+}
+
+/// What gains make of maps is within 3 % of what they make of all maps. Maps that are linear over sixteen time steps,
+/// as they would be without looking at the middle, are further away.
+#[test]
+fn maps_that_are_not_computed_are_near_those_that_are() {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
+    let leg_m = full_body(&build).unwrap().dimensions.leg_length;
+    let walk = Walk::new(&Gait::named("fast").unwrap(), leg_m, &mut Findings::default()).unwrap();
+    let found = OptimalWalk::find(&build, &walk).unwrap();
+    let (human, settings) = (found.figure(), StepSettings::default());
+    let mut plan = CyclePlan::new(&human, &found.solution, settings.step_s).unwrap();
+    // A third of a cycle is enough: in it a foot strikes, and the other one leaves the ground.
+    let step = plan.steps.len() / 3;
+    plan.steps.truncate(step);
+    plan.mirror = None;
+    let joints = plan.joints();
+    let impedance = |c: usize| {
+        let stiffness = if joints.contains(&c) { 200.0 } else { 0.0 };
+        Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() }
+    };
+    let impedances: Vec<Impedance> = (0..human.model.coordinates().len()).map(impedance).collect();
+    let mut figure = FigureWorld::new(&human, found.solution.problem().shoes, settings).unwrap();
+    let maps = figure.maps(&plan, &impedances).unwrap();
+    let all: Vec<StepMap> =
+        (0..plan.steps.len()).map(|step| figure.map(&plan, &impedances, step, DIFFERENCES).unwrap()).collect();
+    let computed = maps.iter().zip(&all).filter(|(a, b)| a.by_state == b.by_state).count();
+    let coarse: Vec<StepMap> = (0..all.len())
+        .map(|k| {
+            let from = k - k % 16;
+            let to = (from + 16).min(all.len() - 1);
+            let share = (k - from) as f64 / (to - from).max(1) as f64;
+            let mix = |a: &DMatrix<f64>, b: &DMatrix<f64>| a * (1.0 - share) + b * share;
+            StepMap {
+                by_state: mix(&all[from].by_state, &all[to].by_state),
+                by_input: mix(&all[from].by_input, &all[to].by_input),
+            }
+        })
+        .collect();
+    let states = all[0].by_state.nrows();
+    let diagonal = |count: usize, cost: f64| DMatrix::from_diagonal_element(count, count, cost);
+    let costs = Costs { state: diagonal(states, 1.0), input: diagonal(joints.len(), 1e-4) };
+    let gains = |maps: &[StepMap]| costs.gains(maps, &mut diagonal(states, 1.0)).unwrap();
+    let exact = gains(&all);
+    let apart = |maps: &[StepMap]| {
+        let of_step = |(gain, exact): (&DMatrix<f64>, &DMatrix<f64>)| (gain - exact).norm() / exact.norm();
+        let mut apart: Vec<f64> = gains(maps).iter().zip(&exact).map(of_step).collect();
+        apart.sort_by(f64::total_cmp);
+        [apart[apart.len() / 2], apart[apart.len() - 1]]
+    };
+    let [own, coarse] = [&maps, &coarse].map(|maps| apart(maps));
+    println!("{computed} of {} computed; gains apart by {own:?} (median, most), {coarse:?} if linear", all.len());
+    assert!((10..maps.len() / 2).contains(&computed), "{computed}");
+    assert!(own[0] < 3e-3 && own[1] < 0.03, "{own:?}");
+    assert!(coarse[1] > 2.0 * own[1], "{coarse:?}");
 }
 
 /// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse

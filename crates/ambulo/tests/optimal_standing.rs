@@ -7,7 +7,7 @@ use ambulo::kinematics::{Posture, PostureSweep};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable, SpherePart};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Movement, Side};
-use ambulo::optimal::{NO_ROOT_FORCE, Sample, Solution, StandingMovements};
+use ambulo::optimal::{NO_ROOT_FORCE, OptimalWalk, STAGES, Sample, Solution, StandingMovements};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 
 const G: f64 = 9.80665;
@@ -201,6 +201,40 @@ fn starts_as_people_do(human: &Human, start: &Solution, walk: &Solution) {
     assert!(back > 0.01 && left > 0.01 && samples[farthest].time_s < 0.6 * samples[off].time_s);
     assert!((0.6..0.9).contains(&steps[0]) && (0.6..1.1).contains(&steps[1]), "{steps:?}");
     assert!(rocked < 0.03 && higher < 0.03, "{rocked} {higher}");
+}
+
+/// The built-in movements belong to the present problem, and nothing is left to gain in them. A woman's are solved from
+/// them.
+#[test]
+fn built_in_movements_solve_the_present_problem_and_start_those_of_others() {
+    let usual = Build::usual(SegmentTable::DeLevaMale);
+    let movements = |build: &Build| {
+        let planar = build.human().unwrap();
+        let mut gait = Gait::named("free").unwrap();
+        gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&planar)));
+        let walk = Walk::new(&gait, planar.dimensions.leg_length, &mut Findings::default()).unwrap();
+        let found = OptimalWalk::find(build, &walk).unwrap();
+        StandingMovements::find(&found.figure(), &found.solution)
+            .and_then(|movements| movements.with_steps(&found.figure(), &found.solution))
+            .unwrap()
+    };
+    let cost = |movement: &Solution| movement.progress.last().unwrap().cost;
+    let built_in = movements(&usual);
+    for (name, movement) in
+        [("stop", &built_in.stop), ("start", &built_in.start), ("steps", built_in.steps.as_ref().unwrap())]
+    {
+        let [progress] = movement.progress[..] else { panic!("{name}: {:?}", movement.progress) };
+        assert_eq!((progress.steps, movement.unbalanced(NO_ROOT_FORCE)), (0, None), "{name}");
+        let again = movement.problem().solve(movement.unknowns(), &STAGES[STAGES.len() - 1..]).unwrap();
+        println!("{name}: cost {:.3}, solved on {:.3}", cost(movement), cost(&again));
+        assert!(cost(&again) > 0.95 * cost(movement), "{name}");
+    }
+    let woman = movements(&Build { mass: 60.0, height: 1.65, ..Build::usual(SegmentTable::DeLevaFemale) });
+    for (name, own, other) in [("stop", &built_in.stop, &woman.stop), ("start", &built_in.start, &woman.start)] {
+        println!("{name}: cost {:.2} of the woman, {:.2} of the man", cost(other), cost(own));
+        assert!(other.progress.iter().map(|stage| stage.steps).sum::<usize>() > 0, "{name}");
+        assert!((0.7..1.3).contains(&(cost(other) / cost(own))), "{name}");
+    }
 }
 
 #[test]

@@ -59,7 +59,7 @@ pub struct Costs {
 impl Costs {
     /// Gains K_k of some steps; `value` is P after the last step and becomes P before the first. `None` if R + Bᵀ P B
     /// has no inverse.
-    pub(super) fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
+    pub fn gains(&self, steps: &[StepMap], value: &mut DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
         self.gains_with(steps, value, |_, _| ())
     }
 
