@@ -203,10 +203,9 @@ fn starts_as_people_do(human: &Human, start: &Solution, walk: &Solution) {
     assert!(rocked < 0.03 && higher < 0.03, "{rocked} {higher}");
 }
 
-/// The built-in movements belong to the present problem, and nothing is left to gain in them. A woman's are solved from
-/// them.
+/// The built-in movements belong to the present problem, and nothing is left to gain in them. A woman's are solved.
 #[test]
-fn built_in_movements_solve_the_present_problem_and_start_those_of_others() {
+fn built_in_movements_solve_the_present_problem_and_are_no_others() {
     let usual = Build::usual(SegmentTable::DeLevaMale);
     let movements = |build: &Build| {
         let planar = build.human().unwrap();

@@ -190,15 +190,10 @@ impl MovementProblem {
         self.unguided(self.guided(1.0)?.solve(&self.guess, &STAGES)?.unknowns())
     }
 
-    /// The solution near some unknowns; where they are one (`is_solution`) and leave no force at the root, as they are.
-    pub(super) fn solve_from(&self, start: &[f64], is_solution: bool) -> Result<Solution, CurvedJointError> {
-        if is_solution {
-            let known = self.problem.at(start)?;
-            if known.unbalanced(NO_ROOT_FORCE).is_none() {
-                return Ok(known);
-            }
-        }
-        self.unguided(start)
+    /// Unknowns that solve the problem, as they are, or solved on where they leave a force at the root.
+    pub(super) fn solve_from(&self, start: &[f64]) -> Result<Solution, CurvedJointError> {
+        let known = self.problem.at(start)?;
+        if known.unbalanced(NO_ROOT_FORCE).is_none() { Ok(known) } else { self.unguided(start) }
     }
 
     /// Solves the problem without the first guess, from unknowns near the solution.

@@ -2,8 +2,8 @@
 //!
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and
 //! cadence needs no solution; a test checks that the files solve the present problem. Other walks are solved from the
-//! plan with the nearest speed. So are movements between the slowest walk and standing; their files have changes from
-//! the first guess. Made by `cargo xtask walk-plans`.
+//! plan with the nearest speed. Movements of a man between a slow walk and standing are here too; their files have
+//! changes from the first guess. Made by `cargo xtask walk-plans`.
 
 use super::error::STEPS_ON_THE_SPOT;
 use super::solution::Solution;

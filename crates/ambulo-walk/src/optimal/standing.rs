@@ -219,8 +219,9 @@ fn at_rest(stop: &Solution) -> Vec<f64> {
     stop.instant(stop.problem().duration_s).posture[0].clone()
 }
 
-/// A movement; with the posture of standing, one from it. It is the built-in one, or is solved from that, or else from
-/// its first guess.
+/// A movement; with the posture of standing, one from it. It is the built-in one, or is solved from its first guess:
+/// solved from the built-in one, the movements of other figures take half the time, but a woman then kept her balance
+/// after 12 of 16 pushes of 150 N, not 15.
 fn solved(
     human: &Human,
     walk: &Solution,
@@ -229,8 +230,9 @@ fn solved(
     standing: Option<&[f64]>,
 ) -> Result<Solution, OptimalWalkError> {
     let problem = joining(human, walk, outline, standing)?;
-    if let Some((known, start)) = from_plan(human, walk, movement, &problem)? {
-        let solution = problem.solve_from(&start, known.build == human.build && known.is_of(walk))?;
+    let own = |(known, _): &(WalkPlan, Vec<f64>)| known.build == human.build && known.is_of(walk);
+    if let Some((_, start)) = from_plan(human, walk, movement, &problem)?.filter(own) {
+        let solution = problem.solve_from(&start)?;
         if let Ok(solution) = judged(solution, walk, movement, outline) {
             return Ok(solution);
         }
