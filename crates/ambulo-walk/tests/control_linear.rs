@@ -60,13 +60,11 @@ fn maps_of_the_second_half_of_a_cycle_are_mirror_images_of_those_of_the_first() 
     }
 }
 
-/// Along a walk, forward differences agree with central ones of ten times their size, except in single time steps in
-/// which a sphere of a foot begins to carry load: there a derivative changes within the difference.
-#[test]
-fn forward_differences_agree_with_central_ones_along_a_walk() {
+/// Plan of a man's walk in three dimensions, impedances of his joints, and himself.
+fn walker(gait: &str) -> (CyclePlan, Vec<Impedance>, FigureWorld) {
     let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
     let leg_m = full_body(&build).unwrap().dimensions.leg_length;
-    let walk = Walk::new(&Gait::named("free").unwrap(), leg_m, &mut Findings::default()).unwrap();
+    let walk = Walk::new(&Gait::named(gait).unwrap(), leg_m, &mut Findings::default()).unwrap();
     let found = OptimalWalk::find(&build, &walk).unwrap();
     let (human, settings) = (found.figure(), StepSettings::default());
     let plan = CyclePlan::new(&human, &found.solution, settings.step_s).unwrap();
@@ -75,8 +73,16 @@ fn forward_differences_agree_with_central_ones_along_a_walk() {
         let stiffness = if joints.contains(&c) { 200.0 } else { 0.0 };
         Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() }
     };
-    let impedances: Vec<Impedance> = (0..human.model.coordinates().len()).map(impedance).collect();
-    let mut figure = FigureWorld::new(&human, found.solution.problem().shoes, settings).unwrap();
+    let impedances = (0..human.model.coordinates().len()).map(impedance).collect();
+    let figure = FigureWorld::new(&human, found.solution.problem().shoes, settings).unwrap();
+    (plan, impedances, figure)
+}
+
+/// Along a walk, forward differences agree with central ones of ten times their size, except in single time steps in
+/// which a sphere of a foot begins to carry load: there a derivative changes within the difference.
+#[test]
+fn forward_differences_agree_with_central_ones_along_a_walk() {
+    let (plan, impedances, mut figure) = walker("free");
     let mut map =
         |step: usize, factor: f64| figure.map(&plan, &impedances, step, DIFFERENCES.map(|size| factor * size)).unwrap();
     let mut apart: Vec<f64> = Vec::new();
@@ -96,46 +102,27 @@ fn forward_differences_agree_with_central_ones_along_a_walk() {
     assert!(median > 0.0, "the differences are the same");
 }
 
-/// What gains make of maps is within 3 % of what they make of all maps. Maps that are linear over sixteen time steps,
-/// as they would be without looking at the middle, are further away.
+/// Gains from maps that are linear between computed ones are near the gains from maps that are all computed. A straight
+/// line over each sixteen time steps, without a look at the middle, is no substitute.
 #[test]
 fn maps_that_are_not_computed_are_near_those_that_are() {
-    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: true };
-    let leg_m = full_body(&build).unwrap().dimensions.leg_length;
-    let walk = Walk::new(&Gait::named("fast").unwrap(), leg_m, &mut Findings::default()).unwrap();
-    let found = OptimalWalk::find(&build, &walk).unwrap();
-    let (human, settings) = (found.figure(), StepSettings::default());
-    let mut plan = CyclePlan::new(&human, &found.solution, settings.step_s).unwrap();
+    let (mut plan, impedances, mut figure) = walker("fast");
     // A third of a cycle is enough: in it a foot strikes, and the other one leaves the ground.
-    let step = plan.steps.len() / 3;
-    plan.steps.truncate(step);
+    plan.steps.truncate(plan.steps.len() / 3);
     plan.mirror = None;
-    let joints = plan.joints();
-    let impedance = |c: usize| {
-        let stiffness = if joints.contains(&c) { 200.0 } else { 0.0 };
-        Impedance { stiffness, damping: 0.1 * stiffness, strength: strong() }
-    };
-    let impedances: Vec<Impedance> = (0..human.model.coordinates().len()).map(impedance).collect();
-    let mut figure = FigureWorld::new(&human, found.solution.problem().shoes, settings).unwrap();
     let maps = figure.maps(&plan, &impedances).unwrap();
     let all: Vec<StepMap> =
         (0..plan.steps.len()).map(|step| figure.map(&plan, &impedances, step, DIFFERENCES).unwrap()).collect();
     let computed = maps.iter().zip(&all).filter(|(a, b)| a.by_state == b.by_state).count();
-    let coarse: Vec<StepMap> = (0..all.len())
-        .map(|k| {
-            let from = k - k % 16;
-            let to = (from + 16).min(all.len() - 1);
-            let share = (k - from) as f64 / (to - from).max(1) as f64;
-            let mix = |a: &DMatrix<f64>, b: &DMatrix<f64>| a * (1.0 - share) + b * share;
-            StepMap {
-                by_state: mix(&all[from].by_state, &all[to].by_state),
-                by_input: mix(&all[from].by_input, &all[to].by_input),
-            }
-        })
-        .collect();
+    let straight = |k: usize| {
+        let from = k - k % 16;
+        let to = (from + 16).min(all.len() - 1);
+        all[from].mixed(&all[to], (k - from) as f64 / (to - from).max(1) as f64)
+    };
+    let coarse: Vec<StepMap> = (0..all.len()).map(straight).collect();
     let states = all[0].by_state.nrows();
     let diagonal = |count: usize, cost: f64| DMatrix::from_diagonal_element(count, count, cost);
-    let costs = Costs { state: diagonal(states, 1.0), input: diagonal(joints.len(), 1e-4) };
+    let costs = Costs { state: diagonal(states, 1.0), input: diagonal(plan.joints().len(), 1e-4) };
     let gains = |maps: &[StepMap]| costs.gains(maps, &mut diagonal(states, 1.0)).unwrap();
     let exact = gains(&all);
     let apart = |maps: &[StepMap]| {
@@ -147,8 +134,8 @@ fn maps_that_are_not_computed_are_near_those_that_are() {
     let [own, coarse] = [&maps, &coarse].map(|maps| apart(maps));
     println!("{computed} of {} computed; gains apart by {own:?} (median, most), {coarse:?} if linear", all.len());
     assert!((10..maps.len() / 2).contains(&computed), "{computed}");
-    assert!(own[0] < 3e-3 && own[1] < 0.03, "{own:?}");
-    assert!(coarse[1] > 2.0 * own[1], "{coarse:?}");
+    assert!(own[0] < 1e-3 && own[1] < 0.02, "{own:?}");
+    assert!(coarse[0] > 3e-3 && coarse[1] > 0.1, "{coarse:?}");
 }
 
 /// In the air, a torque e of one joint changes the rates by Δ with (M + h d + h² k) Δ = h e, and M Δ is what inverse

@@ -203,36 +203,58 @@ fn starts_as_people_do(human: &Human, start: &Solution, walk: &Solution) {
     assert!(rocked < 0.03 && higher < 0.03, "{rocked} {higher}");
 }
 
-/// The built-in movements belong to the present problem, and nothing is left to gain in them. A woman's are solved.
+/// A slow walk from which a figure in three dimensions stops.
+fn slow(build: &Build, lift_m: f64) -> OptimalWalk {
+    let planar = build.human().unwrap();
+    let mut gait = Gait::named("free").unwrap();
+    gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&planar)));
+    let walk = Walk::new(&gait, planar.dimensions.leg_length, &mut Findings::default()).unwrap();
+    OptimalWalk::find_lifted(build, &walk, lift_m).unwrap()
+}
+
+fn cost(movement: &Solution) -> f64 {
+    movement.progress.last().unwrap().cost
+}
+
+fn steps_of_solver(movement: &Solution) -> usize {
+    movement.progress.iter().map(|stage| stage.steps).sum()
+}
+
+/// The built-in movements belong to the present problem, and the last stage of the solver gains nothing on them.
 #[test]
-fn built_in_movements_solve_the_present_problem_and_are_no_others() {
-    let usual = Build::usual(SegmentTable::DeLevaMale);
-    let movements = |build: &Build| {
-        let planar = build.human().unwrap();
-        let mut gait = Gait::named("free").unwrap();
-        gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&planar)));
-        let walk = Walk::new(&gait, planar.dimensions.leg_length, &mut Findings::default()).unwrap();
-        let found = OptimalWalk::find(build, &walk).unwrap();
-        StandingMovements::find(&found.figure(), &found.solution)
-            .and_then(|movements| movements.with_steps(&found.figure(), &found.solution))
-            .unwrap()
-    };
-    let cost = |movement: &Solution| movement.progress.last().unwrap().cost;
-    let built_in = movements(&usual);
-    for (name, movement) in
-        [("stop", &built_in.stop), ("start", &built_in.start), ("steps", built_in.steps.as_ref().unwrap())]
-    {
-        let [progress] = movement.progress[..] else { panic!("{name}: {:?}", movement.progress) };
-        assert_eq!((progress.steps, movement.unbalanced(NO_ROOT_FORCE)), (0, None), "{name}");
+fn built_in_movements_solve_the_present_problem() {
+    let found = slow(&Build::usual(SegmentTable::DeLevaMale), 0.0);
+    let (human, walk) = (found.figure(), &found.solution);
+    let movements = StandingMovements::find(&human, walk).and_then(|found| found.with_steps(&human, walk)).unwrap();
+    let steps = movements.steps.as_ref().unwrap();
+    for (name, movement) in [("stop", &movements.stop), ("start", &movements.start), ("steps", steps)] {
+        assert_eq!((steps_of_solver(movement), movement.unbalanced(NO_ROOT_FORCE)), (0, None), "{name}");
         let again = movement.problem().solve(movement.unknowns(), &STAGES[STAGES.len() - 1..]).unwrap();
         println!("{name}: cost {:.3}, solved on {:.3}", cost(movement), cost(&again));
-        assert!(cost(&again) > 0.95 * cost(movement), "{name}");
+        assert!(cost(&again) > 0.98 * cost(movement), "{name}");
     }
-    let woman = movements(&Build { mass: 60.0, height: 1.65, ..Build::usual(SegmentTable::DeLevaFemale) });
-    for (name, own, other) in [("stop", &built_in.stop, &woman.stop), ("start", &built_in.start, &woman.start)] {
-        println!("{name}: cost {:.2} of the woman, {:.2} of the man", cost(other), cost(own));
-        assert!(other.progress.iter().map(|stage| stage.steps).sum::<usize>() > 0, "{name}");
-        assert!((0.7..1.3).contains(&(cost(other) / cost(own))), "{name}");
+}
+
+/// Feet that are lifted higher walk at the same speed and cadence, but otherwise where the movements join the walk.
+#[test]
+fn a_built_in_movement_is_not_taken_for_another_walk_or_figure() {
+    let usual = Build::usual(SegmentTable::DeLevaMale);
+    for (build, lift_m) in
+        [(usual, 0.03), (Build { mass: 60.0, height: 1.65, ..Build::usual(SegmentTable::DeLevaFemale) }, 0.0)]
+    {
+        let found = slow(&build, lift_m);
+        let movements = StandingMovements::find(&found.figure(), &found.solution).unwrap();
+        for (name, movement) in [("stop", &movements.stop), ("start", &movements.start)] {
+            println!(
+                "{name} of {} kg, lifted {lift_m} m: {} steps, cost {:.2}",
+                build.mass,
+                steps_of_solver(movement),
+                cost(movement)
+            );
+            assert!(steps_of_solver(movement) > 0, "{name}");
+            assert_eq!(movement.unbalanced(NO_ROOT_FORCE), None, "{name}");
+        }
+        assert!(movements.join(&found.solution));
     }
 }
 

@@ -5,10 +5,10 @@
 //! walk differ from central ones, of twice the cost, by a share of about 1e-5, and where contact sets in by up to 1e-3;
 //! gains do so too.
 //!
-//! Between the instants at which contacts set in or end, maps change slowly. So a fifth of them is computed, the others
-//! are linear in between: a span of time steps is halved while the map in its middle is not the mean of those at its
-//! ends. Gains of a walk and of movements then differ from those of all maps by a share of about 1e-3, and where a foot
-//! strikes by up to 3e-2.
+//! Between the instants at which contacts set in or end, maps change slowly. So a fifth to a third of them is computed,
+//! the others are linear in between: a span of time steps is halved while the map in its middle is not the mean of
+//! those at its ends. Gains of a walk and of movements then differ from those of all maps by a share of about 1e-3, and
+//! where a foot strikes by up to 3e-2.
 
 use super::figure::FigureWorld;
 use super::plan::{CyclePlan, PlannedStep};

@@ -36,7 +36,7 @@ impl StepMap {
     }
 
     /// The map at a share of the way to another one.
-    pub(super) fn mixed(&self, other: &StepMap, share: f64) -> StepMap {
+    pub fn mixed(&self, other: &StepMap, share: f64) -> StepMap {
         let mix = |own: &DMatrix<f64>, other: &DMatrix<f64>| own * (1.0 - share) + other * share;
         StepMap { by_state: mix(&self.by_state, &other.by_state), by_input: mix(&self.by_input, &other.by_input) }
     }

@@ -13,7 +13,7 @@ use super::near::{NEAR_STAGES, longer};
 use super::objective::{Bound, Quantity, Term};
 use super::problem::Problem;
 use super::solution::Solution;
-use super::solve::{Continuation, NO_ROOT_FORCE};
+use super::solve::Continuation;
 use super::walk::{STAGES, soles_with_width};
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
@@ -40,6 +40,8 @@ const SLIP: f64 = 0.02;
 const LIGHT: f64 = 0.05;
 /// Excess over the range of a joint that costs 1 [rad].
 const BEYOND: f64 = DEGREE;
+/// Name of the terms of the first and the last instants.
+pub(super) const END: &str = "end";
 /// Instants per knot interval.
 const PER_KNOT: usize = 2;
 
@@ -182,26 +184,20 @@ impl MovementProblem {
     /// If the figure has joints that are not hinges or slides.
     pub fn solve(&self) -> Result<Solution, CurvedJointError> {
         let near = self.guided(1.0)?.solve(&self.guess, &STAGES)?;
-        self.unguided(self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?.unknowns())
+        self.unguided(&self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?)
     }
 
     /// As [`MovementProblem::solve`], in less time, where the first guess is near the solution.
     pub(super) fn solve_near_guess(&self) -> Result<Solution, CurvedJointError> {
-        self.unguided(self.guided(1.0)?.solve(&self.guess, &STAGES)?.unknowns())
+        self.unguided(&self.guided(1.0)?.solve(&self.guess, &STAGES)?)
     }
 
-    /// Unknowns that solve the problem, as they are, or solved on where they leave a force at the root.
-    pub(super) fn solve_from(&self, start: &[f64]) -> Result<Solution, CurvedJointError> {
-        let known = self.problem.at(start)?;
-        if known.unbalanced(NO_ROOT_FORCE).is_none() { Ok(known) } else { self.unguided(start) }
-    }
-
-    /// Solves the problem without the first guess, from unknowns near the solution.
-    fn unguided(&self, start: &[f64]) -> Result<Solution, CurvedJointError> {
+    /// Solves the problem without the first guess, from a solution near it.
+    fn unguided(&self, guided: &Solution) -> Result<Solution, CurvedJointError> {
         let stages = longer(&NEAR_STAGES);
         let on = Continuation::on(&stages);
         // Where the last stage alone is stuck, those before it lead out.
-        self.problem.balanced(self.problem.solve(start, &stages)?, &[&on, &stages, &on], &[])
+        self.problem.balanced(self.problem.solve(guided.unknowns(), &stages)?, &[&on, &stages, &on], &[])
     }
 
     /// The problem with a cost of deviations from the first guess.
@@ -402,7 +398,7 @@ impl End<'_> {
         let mut terms = Vec::new();
         for id in problem.model.coordinate_ids() {
             let mut add = |quantity, value, deviation| {
-                let (name, targets, deviation) = ("end".to_owned(), at(value), deviation / self.count.sqrt());
+                let (name, targets, deviation) = (END.to_owned(), at(value), deviation / self.count.sqrt());
                 terms.push(Term { name, quantity, targets, deviation, bound: Bound::Near });
             };
             let place = self.place[id.index()];

@@ -2,14 +2,14 @@
 //!
 //! data/walks has the spline coefficients of solved walks of the built-in figures. A walk of the same figure, speed and
 //! cadence needs no solution; a test checks that the files solve the present problem. Other walks are solved from the
-//! plan with the nearest speed. Movements of a man between a slow walk and standing are here too; their files have
-//! changes from the first guess. Made by `cargo xtask walk-plans`.
+//! plan with the nearest speed. Movements of a man between a slow walk and standing are here too. Made by `cargo xtask
+//! walk-plans`.
 
 use super::error::STEPS_ON_THE_SPOT;
 use super::solution::Solution;
 use crate::findings::Findings;
 use crate::gait::{Gait, Speed, Walk};
-use crate::model::anthropometry::{Build, SegmentTable};
+use crate::model::anthropometry::{Build, Human, SegmentTable};
 use crate::toml_reader::{Source, Table, TomlError};
 
 /// Largest difference of speed and cycle at which a plan belongs to a walk.
@@ -80,16 +80,15 @@ impl WalkPlan {
         Ok(plan.and_then(|plan| plan.walk().map(|walk| (plan, walk))))
     }
 
-    /// The built-in plan of a movement between a walk and standing, if there is one. Its speed and cycle are the
-    /// walk's, its coefficients changes from the first guess.
-    pub(super) fn of_movement(movement: &str) -> Result<Option<WalkPlan>, TomlError> {
-        MOVEMENTS.iter().find(|(name, _)| *name == movement).map(|(_, text)| WalkPlan::from_toml(text)).transpose()
-    }
-
-    /// Whether speed and cycle are those of a solved walk of the same figure.
-    pub(super) fn is_of(&self, solved: &Solution) -> bool {
-        let is_same = |walk: Walk| (walk.speed() - solved.speed()).abs() < SAME;
-        (self.cycle_s - solved.cycle_s()).abs() < SAME && self.walk().is_some_and(is_same)
+    /// The built-in plan of a movement of a figure between a walk and standing, if there is one. Its speed and cycle
+    /// are the walk's.
+    pub(super) fn of_movement(movement: &str, human: &Human, walk: &Solution) -> Result<Option<WalkPlan>, TomlError> {
+        let Some((_, text)) = MOVEMENTS.iter().find(|(name, _)| *name == movement) else { return Ok(None) };
+        let plan = WalkPlan::from_toml(text)?;
+        let is_same = |own: Walk| (own.speed() - walk.speed()).abs() < SAME;
+        let is_of_walk = (plan.cycle_s - walk.cycle_s()).abs() < SAME && plan.walk().is_some_and(is_same);
+        let has_joints = human.model.coordinates().iter().map(|coordinate| &coordinate.name).eq(&plan.coordinates);
+        Ok(Some(plan).filter(|plan| plan.build == human.build && has_joints && is_of_walk))
     }
 
     /// The walk that the plan solves.

@@ -22,7 +22,7 @@ use super::error::{OptimalWalkError, STEPS_ON_THE_SPOT};
 use super::find::OptimalWalk;
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
-use super::movement::{End, Key, MovementProblem, Nearness, posture};
+use super::movement::{END, End, Key, MovementProblem, Nearness, posture};
 use super::muscles::EffortCosts;
 use super::objective::{Bound, Quantity};
 use super::plan::WalkPlan;
@@ -32,7 +32,7 @@ use super::solve::NO_ROOT_FORCE;
 use crate::dynamics::CurvedJointError;
 use crate::gait::Walk;
 use crate::model::anthropometry::{Human, SpherePart};
-use crate::model::{CoordinateId, CoordinateKind, Movement, Side};
+use crate::model::{CoordinateId, Movement, Side};
 
 /// Dimensionless speed V/√(gL) of a walk from which figures stop: 0.7 m/s for a man of 1.75 m.
 const STOPPING_SPEED: f64 = 0.235;
@@ -67,6 +67,10 @@ const LOAD_COST: f64 = 0.05;
 
 /// Largest difference from the walk where a movement joins it: coordinates [rad, m] and rates [rad/s, m/s].
 const APART: [f64; 2] = [0.02, 0.3];
+
+/// Cost of the ends of a built-in movement below which it joins this walk and this posture of standing. Its own walk
+/// costs 0.06 and 0.2, a walk whose feet are lifted 5 mm higher 22 and 92.
+const SAME_ENDS: f64 = 1.0;
 
 /// How a movement follows the walk. Phases are shares of its cycle, in which the right foot strikes at 0 and the left
 /// one at 0.5.
@@ -184,24 +188,21 @@ impl StandingMovements {
         Ok(StandingMovements { steps: Some(steps), ..self })
     }
 
-    /// Stop, start and steps on the spot of a figure in three dimensions, solved from their first guesses. Coefficients
-    /// are changes from the first guess, as in the files of data/walks.
+    /// Stop, start and steps on the spot of a figure in three dimensions, solved from their first guesses, as the files
+    /// of data/walks.
     ///
     /// # Errors
     /// As [`StandingMovements::find`].
-    pub fn plans(found: &OptimalWalk, walk: &Walk) -> Result<Vec<WalkPlan>, OptimalWalkError> {
+    pub fn plans(found: &OptimalWalk, walk: &Walk) -> Result<[WalkPlan; 3], OptimalWalkError> {
         let (human, solution) = (found.figure(), &found.solution);
-        let mut rest: Option<Vec<f64>> = None;
-        let mut plans = Vec::new();
-        for (movement, outline) in [("stop", &STOP), ("start", &START), (STEPS_ON_THE_SPOT, &STEPS)] {
-            let problem = joining(&human, solution, outline, rest.as_deref())?;
-            let made = judged(problem.solve_near_guess()?, solution, movement, outline)?;
-            let mut plan = WalkPlan::new(human.build, walk, &made);
-            plan.coefficients.iter_mut().zip(&problem.guess).for_each(|(value, guess)| *value -= guess);
-            rest.get_or_insert_with(|| at_rest(&made));
-            plans.push(plan);
-        }
-        Ok(plans)
+        let from_guess = |movement, outline, standing: Option<&[f64]>| {
+            judged(joining(&human, solution, outline, standing)?.solve_near_guess()?, solution, movement, outline)
+        };
+        let stop = from_guess("stop", &STOP, None)?;
+        let rest = at_rest(&stop);
+        let start = from_guess("start", &START, Some(&rest))?;
+        let steps = from_guess(STEPS_ON_THE_SPOT, &STEPS, Some(&rest))?;
+        Ok([stop, start, steps].map(|made| WalkPlan::new(human.build, walk, &made)))
     }
 
     /// Whether the stop begins in a walk, and the start ends in it.
@@ -229,39 +230,21 @@ fn solved(
     outline: &Outline,
     standing: Option<&[f64]>,
 ) -> Result<Solution, OptimalWalkError> {
-    let problem = joining(human, walk, outline, standing)?;
-    let own = |(known, _): &(WalkPlan, Vec<f64>)| known.build == human.build && known.is_of(walk);
-    if let Some((_, start)) = from_plan(human, walk, movement, &problem)?.filter(own) {
-        let solution = problem.solve_from(&start)?;
-        if let Ok(solution) = judged(solution, walk, movement, outline) {
-            return Ok(solution);
-        }
+    let movement_problem = joining(human, walk, outline, standing)?;
+    let problem = &movement_problem.problem;
+    if let Some(plan) = WalkPlan::of_movement(movement, human, walk)?
+        && plan.coefficients.len() == movement_problem.guess.len()
+        && cost_of_ends(problem, &plan.coefficients) < SAME_ENDS
+        && let Ok(solution) = judged(problem.at(&plan.coefficients)?, walk, movement, outline)
+    {
+        return Ok(solution);
     }
-    judged(problem.solve_near_guess()?, walk, movement, outline)
+    judged(movement_problem.solve_near_guess()?, walk, movement, outline)
 }
 
-/// The built-in plan of a movement, and unknowns that differ from the first guess as the plan does: translations grow
-/// with leg length. None where the joints or the duration are not those of the plan.
-fn from_plan(
-    human: &Human,
-    walk: &Solution,
-    movement: &str,
-    problem: &MovementProblem,
-) -> Result<Option<(WalkPlan, Vec<f64>)>, OptimalWalkError> {
-    let Some(plan) = WalkPlan::of_movement(movement)? else { return Ok(None) };
-    let coordinates = human.model.coordinates();
-    let has_joints = coordinates.iter().map(|coordinate| &coordinate.name).eq(&plan.coordinates);
-    if !has_joints || plan.coefficients.len() != problem.guess.len() {
-        return Ok(None);
-    }
-    let larger = walk.problem().length_m / plan.build.human()?.dimensions.leg_length;
-    let changes = plan.coefficients.iter().zip(coordinates.iter().cycle());
-    let start = problem.guess.iter().zip(changes).map(|(guess, (change, coordinate))| match coordinate.kind {
-        CoordinateKind::Translation => guess + larger * change,
-        _ => guess + change,
-    });
-    let start = start.collect();
-    Ok(Some((plan, start)))
+/// What it costs that a movement begins and ends elsewhere than it should.
+fn cost_of_ends(problem: &Problem, unknowns: &[f64]) -> f64 {
+    problem.costs(unknowns).iter().filter(|(name, _)| name == END).map(|(_, cost)| cost).sum()
 }
 
 /// A solution, unless it is no movement between the walk and standing.
