@@ -11,10 +11,9 @@ use crate::caller::Caller;
 use crate::failure::Failure;
 use crate::{Completion, commands};
 use ambulo::job::Job;
-use ambulo_results::Convention;
+use ambulo_results::{Convention, json_place};
 use anyhow::{Context, Result, anyhow};
 use serde::Deserialize;
-use serde_json::de::SliceRead;
 use serde_json::{Deserializer, Value};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -236,7 +235,7 @@ impl Request {
     /// As there.
     pub fn of_value(value: &Value) -> Result<Request, Failure> {
         // One reader for both: a second one is as much machine code again.
-        Ok(Request::of(&mut Deserializer::from_slice(value.to_string().as_bytes()), false)?)
+        Ok(Request::of(value.to_string().as_bytes(), false)?)
     }
 
     /// The same request, with this job of every trial of a batch or session.
@@ -252,22 +251,23 @@ impl Request {
     }
 
     pub(crate) fn read(text: &[u8]) -> Result<Request> {
-        let mut reader = Deserializer::from_slice(text);
-        let request = Request::of(&mut reader, true)?;
-        reader.end().context("expected one request")?;
-        Ok(request)
+        Request::of(text, true)
     }
 
     /// Errors state the line, if the user has seen the text.
-    fn of(reader: &mut Deserializer<SliceRead<'_>>, is_seen: bool) -> Result<Request> {
-        serde_path_to_error::deserialize(reader).map(Request).map_err(|error| {
-            let place = Some(error.path().to_string()).filter(|path| path != ".");
-            let place = place.map_or_else(String::new, |path| format!("`{path}`: "));
-            let (wrong, cause) = (error.inner().to_string(), error.inner());
-            let line = format!(" at line {} column {}", cause.line(), cause.column());
+    fn of(text: &[u8], is_seen: bool) -> Result<Request> {
+        let mut reader = Deserializer::from_slice(text);
+        let verb = Verb::deserialize(&mut reader).map_err(|error| {
+            let place = json_place(text, &|text| Verb::deserialize(&mut Deserializer::from_slice(text)).err());
+            let place = Some(place).filter(|place| !place.is_empty());
+            let place = place.map_or_else(String::new, |place| format!("`{place}`: "));
+            let wrong = error.to_string();
+            let line = format!(" at line {} column {}", error.line(), error.column());
             let wrong = wrong.strip_suffix(&line).filter(|_| !is_seen).unwrap_or(&wrong);
             anyhow!("{place}{wrong}. hint: docs/REQUESTS.md describes requests")
-        })
+        })?;
+        reader.end().context("expected one request")?;
+        Ok(Request(verb))
     }
 
     /// Runs the request as the command does.

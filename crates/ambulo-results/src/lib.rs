@@ -7,6 +7,7 @@ mod file_names;
 mod files;
 mod folder;
 mod force_unit;
+mod json_place;
 mod keep;
 mod muscle_summary;
 mod muscle_tables;
@@ -41,6 +42,7 @@ pub use file_names::{
 pub use files::{OutputFile, WriteError, output_files};
 pub use folder::{BODIES, Folder, ResultsError, error_chain};
 pub use force_unit::ForceUnit;
+pub use json_place::json_place;
 pub use keep::Keep;
 #[doc(hidden)]
 pub use muscle_summary::{EmgSummary, ReserveSummary};

@@ -1,5 +1,6 @@
 //! Reads and writes `summary.json` of any run with the same types.
 
+use crate::json_place::json_place;
 use crate::scene_summary::SceneSummary;
 use crate::sound::{EXPECTED, unsound};
 use crate::summary::Summary;
@@ -37,8 +38,8 @@ impl RunSummary {
             return Err(format!("`{path}` is {number:?}; expected {EXPECTED}"));
         }
         match value.get("world") {
-            Some(Value::Object(_)) => Ok(RunSummary::Scene(Box::new(read(&value)?))),
-            _ => Ok(RunSummary::Motion(Box::new(read(&value)?))),
+            Some(Value::Object(_)) => Ok(RunSummary::Scene(Box::new(read(text)?))),
+            _ => Ok(RunSummary::Motion(Box::new(read(text)?))),
         }
     }
 
@@ -52,11 +53,14 @@ impl RunSummary {
     }
 }
 
-fn read<T: DeserializeOwned>(value: &Value) -> Result<T, String> {
-    serde_path_to_error::deserialize(value).map_err(|error| {
-        let key = Some(error.path().to_string()).filter(|path| path != ".");
-        let key = key.map_or_else(String::new, |path| format!("`{path}`: "));
-        format!("{key}{}; see docs/OUTPUTS.md. {AGAIN}", error.inner())
+fn read<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    // From bytes, as requests are: a reader for strings would be compiled beside it.
+    let read = |text: &[u8]| serde_json::from_slice::<T>(text);
+    read(text.as_bytes()).map_err(|error| {
+        let place = json_place(text.as_bytes(), &|text| read(text).err());
+        let place = Some(place).filter(|place| !place.is_empty());
+        let place = place.map_or_else(String::new, |place| format!("`{place}`: "));
+        format!("{place}{error}; see docs/OUTPUTS.md. {AGAIN}")
     })
 }
 

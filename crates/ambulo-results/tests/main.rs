@@ -11,6 +11,7 @@ mod free_bodies;
 mod cycle_table;
 mod files;
 mod ground_files;
+mod json_place;
 mod keep;
 mod scene_tables;
 mod state_table;
