@@ -38,6 +38,7 @@ mod numerics_elementary;
 mod numerics_harmonics;
 mod numerics_least_squares;
 mod numerics_matrix_product;
+mod numerics_order;
 mod numerics_profile_cholesky;
 mod numerics_random;
 mod numerics_shown;

@@ -47,9 +47,12 @@ pub(crate) fn of_finding(code: Code) -> Option<&'static str> {
             "`--from` and `--to` choose another time range, `--predict` predicts the forces of the whole trial"
         }
         Code::B3dFiltered => "`--cutoff off` leaves the motion as it is",
-        Code::MassStandingMismatch | Code::MassContradicted | Code::B3dStatedMass | Code::B3dFormDefaults => {
-            "`--mass KG` sets the mass"
+        Code::MassStandingMismatch => {
+            "check `--mass KG` and the force plates; the mass on which two of statement, standing trial and motion \
+             agree is used"
         }
+        Code::MassContradicted => "`--mass KG` states another mass; or correct the force plates",
+        Code::B3dStatedMass | Code::B3dFormDefaults => "`--mass KG` sets the mass",
         Code::MassUnverified => "give `--mass KG` or, with markers, a standing trial on force plates (`--static`)",
         Code::GroundPredicted => "`--grf` reads measured forces, `--no-ground` computes a motion without contact",
         Code::PredictionFeetSlide => "`--refit` holds loaded feet still",

@@ -313,6 +313,10 @@ fn a_person_is_calibrated_on_plates_and_only_that_person_is_predicted_with_it() 
     };
     let (before, after) = (forces(&["--predict"]), forces(&["--person", "person.toml"]));
     assert!(after < 0.7 * before, "{before} -> {after}");
+    // Warnings about a trial name it.
+    let heavy = ["--static", "demo/input/standing.c3d", "--mass", "90", "-o", "heavy.toml"];
+    let warned = bench.run(&[&["calibrate", walk][..], &heavy].concat()).done().stderr;
+    assert!(warned.contains(&format!("warning: {walk}: the stated mass is 90.0 kg")), "{warned}");
     bench.edit("person.toml", "mass_kg = 7", "mass_kg = 6");
     let other = [&["forces", walk][..], &body, &["--person", "person.toml"]].concat();
     bench.run(&other).refused(&[walk, "mass", "ambulo calibrate"]);

@@ -484,7 +484,9 @@ fn a_walk_with_springs_says_what_they_and_the_body_did() {
         }
     }
     assert_eq!(whole("knee_angle_r_moment"), body("knee_angle_r_moment"));
-    let work = &bench.json("out/summary.json")["walk"]["prediction"]["device_work"][0];
+    let summary = bench.json("out/summary.json");
+    assert_eq!(summary["input"]["device"], "exo.toml");
+    let work = &summary["walk"]["prediction"]["device_work"][0];
     let of = |who: &str| [0, 1].map(|k| work[who][k].as_f64().unwrap());
     let ([given, taken], [done, braked]) = (of("device_j_kg"), of("body_j_kg"));
     // The walk without the device is the one that is predicted without it.
@@ -499,6 +501,28 @@ fn a_walk_with_springs_says_what_they_and_the_body_did() {
     assert!(done_alone > 0.05 && taken_alone < 0.0 && (done_alone - done).abs() > 1e-3, "{done_alone} {taken_alone}");
     assert!(given > 0.01 && (given + taken).abs() < 0.01 * given, "{given} {taken}");
     assert!(done > 0.05 && braked < 0.0, "{done} {braked}");
+}
+
+/// The trunk is held from outside, so that the body does not balance; its clock is right all the same.
+#[test]
+fn the_clock_of_a_computed_walk_is_not_doubted() {
+    let bench = Workbench::empty("walk_clock");
+    bench.run(&["walk", "--mode", "paper", "--cycles", "1", "--keep", "summary", "--quiet", "-o", "out"]).done();
+    let summary = bench.json("out/summary.json").to_string();
+    assert!(!summary.contains("motion.clock") && !summary.contains("\"tempo\""), "{summary}");
+}
+
+/// Level ground is asked for like any slope, and a hint never leads to a mode that is refused for the same words.
+#[test]
+fn a_slope_of_zero_is_predicted_and_styles_are_refused_with_the_true_reason() {
+    let bench = Workbench::empty("walk_slope_zero");
+    let refused = |words: &[&str], expected: &[&str]| bench.run(words).refused(expected);
+    refused(
+        &["walk", "--slope", "0", "--gait", "goose", "-o", "out"],
+        &["`goose`", "a predicted walk takes its speed"],
+    );
+    refused(&["walk", "--slope", "5", "--no-toe-joint", "-o", "out"], &["toe joints", "on level ground"]);
+    refused(&["walk", "--slope", "5", "--planar", "-o", "out"], &["found the mode corrected", "`--slope`"]);
 }
 
 /// A device without a moment changes nothing, at one joint as little as at two: neither metabolic power nor the work of

@@ -6,6 +6,7 @@
 use super::claim::{Claim, ClaimKind, Judgement};
 use super::open_values::open_values;
 use super::setting::Setting;
+use ambulo_body::numerics::sort_numbers;
 use std::fmt::Write;
 use std::sync::LazyLock;
 
@@ -129,7 +130,7 @@ pub fn shares_of(judged: &[(Setting, Vec<bool>)], claims: &[&str]) -> Vec<ClaimS
 /// Shares of what holds where a value is in its lowest and in its highest third.
 fn ends(values: &[f64], held: &[bool]) -> [f64; 2] {
     let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sort_numbers(&mut sorted);
     let Some(last) = sorted.len().checked_sub(1) else { return [0.0; 2] };
     if sorted[0] >= sorted[last] {
         // A switch that is never drawn has no influence.

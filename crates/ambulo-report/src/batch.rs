@@ -2,6 +2,7 @@
 
 use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm, FigureError};
 use super::html::{Document, escaped, html_table};
+use ambulo::numerics::sort_numbers;
 use ambulo::study::validation::{Section, TextTable, number};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -111,7 +112,7 @@ fn lead(trials: &[BatchTrial]) -> String {
 /// The known values of a quantity in increasing order.
 fn sorted(trials: &[BatchTrial], quantity: usize) -> Vec<f64> {
     let mut values: Vec<f64> = trials.iter().map(|trial| trial.values[quantity]).filter(|x| x.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
+    sort_numbers(&mut values);
     values
 }
 

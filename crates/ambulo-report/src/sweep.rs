@@ -9,6 +9,7 @@ use super::figures::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, Cur
 use super::html::{Document, escaped};
 use ambulo::analysis::{CYCLE_SAMPLES, over_cycle_of};
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 use ambulo::study::Outcome;
 use ambulo_formats::table::guarded;
 use ambulo_results::{CycleRow, OutputFile, PAGE, WALKS, cycle_rows};
@@ -356,7 +357,7 @@ impl<'a> Sweep<'a> {
         };
         let (_, what, unit) = CONDITIONS[self.colored];
         let mut shown: Vec<&(f64, Vec<&[f64]>)> = groups.values().collect();
-        shown.sort_by(|a, b| a.0.total_cmp(&b.0));
+        shown.sort_by_number(|(value, ..)| *value);
         let every = shown.len().div_ceil(MOST_LINES).max(1);
         let line = |(k, (value, curves)): (usize, &(f64, Vec<&[f64]>))| ChartCurve {
             name: format!("{what} {value} {unit}"),

@@ -134,6 +134,7 @@ pub mod internals {
     pub use crate::job::trials::participants::{
         DESCRIPTION as PARTICIPANTS_DESCRIPTION, Size, TABLE as PARTICIPANTS_TABLE, sizes,
     };
+    pub use crate::study::events::contradiction;
     pub use crate::study::force_columns::{load_columns, with_axis_last};
     pub use crate::study::mass::{KnownMass, combined, report_decided};
     pub use crate::study::quality::stance_heights::{Middle, compared};

@@ -295,6 +295,64 @@ fn a_clipped_channel_is_reported_and_a_rounded_peak_is_not() {
     assert!(whole.clipped.is_empty() && !findings.has(Code::PlatesClipped), "{:?}", whole.clipped);
 }
 
+/// The plate of a file whose samples are a millisecond apart.
+fn read_fast(file: &File) -> (PlateRecording, Findings) {
+    let mut findings = Findings::default();
+    let mut record = file.record();
+    (record.point_rate_hz, record.analog_rate_hz) = (1000.0, 1000.0);
+    let mut plates = plates_from_c3d(&record, PlateSettings::default(), &mut findings).unwrap();
+    (plates.remove(0), findings)
+}
+
+#[test]
+fn what_no_load_does_to_a_channel_is_bridged_and_reported() {
+    let (clean, findings) = read_fast(&sine(1000.0));
+    assert!(!findings.has(Code::PlatesExcursion), "{findings:?}");
+    for (name, span, value) in
+        [("spike", 150..151, 8000.0), ("dropout", 140..170, 0.0), ("two spikes", 120..122, -900.0)]
+    {
+        let mut file = sine(1000.0);
+        file.channels[2][span.clone()].fill(value);
+        let (plate, findings) = read_fast(&file);
+        let finding = findings.as_slice().iter().find(|finding| finding.code == Code::PlatesExcursion).unwrap();
+        assert!(
+            finding.message.contains(&format!("channel 3 of plate 1 jumps away and back, first at 0.{}", span.start))
+        );
+        for i in 0..300 {
+            // A straight line over 30 ms is 800 (1 - cos(0.34)) = 45 N from a half sine of 140 ms at most.
+            let off = (plate.vertical(i) - clean.vertical(i)).abs();
+            assert!(off < if span.contains(&i) { 50.0 } else { ROUNDING }, "{name} {i}: {off} N");
+        }
+    }
+    // Every second sample of noise jumps back, and a step stays where it is.
+    let noise = |i: usize| f64::from(u8::from(i.is_multiple_of(2))) - 0.5;
+    let mut file = sine(1000.0);
+    file.channels[0] = (0..300).map(noise).collect();
+    file.channels[1] = (0..300).map(|i| if i < 150 { 0.0 } else { 60.0 }).collect();
+    assert!(!read_fast(&file).1.has(Code::PlatesExcursion));
+    // At 200 Hz a strike may be as fast.
+    let mut file = sine(1000.0);
+    file.channels[2][150] = 8000.0;
+    assert!(!read(&file).1.has(Code::PlatesExcursion));
+}
+
+#[test]
+fn a_channel_that_never_moves_is_reported_if_the_plate_was_loaded() {
+    let still = |file: &File| {
+        let (_, findings) = read(file);
+        findings.as_slice().iter().find(|f| f.code == Code::PlatesStillChannel).map(|found| found.message.clone())
+    };
+    assert_eq!(still(&type_2()), None);
+    let mut dead = type_2();
+    dead.channels[1].fill(0.3);
+    let message = still(&dead).unwrap();
+    assert!(message.contains("a load of 713 N, but channel 2 has one value"), "{message}");
+    dead.channels.iter_mut().for_each(|channel| channel.fill(0.0));
+    assert_eq!(still(&dead), None, "nobody stepped on the plate");
+    // A point has no moments, and does not move under a load that rests.
+    assert_eq!(still(&File::step(1, [0.0; 3], &[30.0, -50.0, -700.0, 50.0, 100.0, -4000.0])), None);
+}
+
 #[test]
 fn plates_may_have_different_heights() {
     let mut step = type_2();

@@ -181,6 +181,8 @@ fn sides_that_differ_are_corrected_if_their_machines_repeat_what_they_do() {
         activity = \"constant\", angle_deg = 40 }]\ntransition = [{ from = \"a\", to = \"b\", when = \"time >= 10 s\" \
         }]\n";
     assert!(!repeats(&walk(once)));
+    let early = once.replace("time >= 10 s", "after 4 steps");
+    assert!(!repeats(&walk(&early)), "results show the state before");
     let settings = |gait| SyntheticWalkSettings {
         gait,
         build: build(),

@@ -169,6 +169,7 @@ mod stance_heights;
 mod stance_loads;
 mod standing_ground;
 mod statistics;
+mod study_events;
 mod study_force_columns;
 mod study_mass;
 mod study_pattern;

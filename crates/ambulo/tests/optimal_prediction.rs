@@ -339,6 +339,7 @@ fn conditions_out_of_range_say_what_is_allowed() {
     assert!(wrong("[[device]]\nstiffness = 1\n").contains("joint"));
     assert!(wrong("[[device]]\njoint = \"ankle\"\nstifness = 1\n").contains("stifness"));
     assert!(wrong("[[device]]\njoint = \"ankle\"\nmoments = [1, \"a\"]\n").contains("line 3"));
+    assert!(wrong("[[device]]\njoint = \"ankle\"\nrest_deg = 5\n").contains("a stiffness, a damping or moments"));
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn by(by: MassWitness, kg: f64, error_kg: f64) -> MassEstimate {
 
 fn known(stated: Option<f64>, standing: Option<f64>) -> KnownMass {
     let standing = standing.map(|kg| by(MassWitness::Standing, kg, 0.005 * kg));
-    KnownMass { stated: stated.map(MassEstimate::stated), standing }
+    KnownMass { stated: stated.map(MassEstimate::stated), standing, ..KnownMass::default() }
 }
 
 fn moving(kg: f64) -> Vec<MassEstimate> {
@@ -81,4 +81,23 @@ fn a_disagreement_between_ways_of_weighing_widens_the_error() {
     let found = combined(&both).unwrap();
     assert!((found.kg - 72.0).abs() < 1e-9 && found.error_kg > 2.0, "{found:?}");
     assert!(combined(&[]).is_none());
+}
+
+#[test]
+fn a_mass_that_the_recording_denies_is_reported_where_nothing_was_weighed() {
+    let codes = |stated: f64, file: f64, standing: Option<f64>, height_m: f64| {
+        let known =
+            KnownMass { file: Some(by(MassWitness::File, file, 0.025 * file)), ..known(Some(stated), standing) };
+        let kg = known.decided(&[]).unwrap().kg;
+        let mut findings = Findings::default();
+        body_mass(kg, &known, Vec::new()).report_statement(height_m, &mut findings);
+        findings.as_slice().iter().map(|finding| finding.code).collect::<Vec<Code>>()
+    };
+    // Pounds.
+    assert_eq!(codes(133.0, 60.3, None, 1.66), [Code::MassStatedTwice]);
+    assert_eq!(codes(133.0, 60.3, None, 1.50), [Code::MassStatedTwice, Code::MassUnusual]);
+    assert_eq!(codes(61.0, 60.3, None, 1.66), []);
+    assert_eq!(codes(75.0, 60.3, Some(74.0), 1.66), [], "plates decide");
+    assert_eq!(codes(16.3, 16.3, None, 1.80), [Code::MassUnusual]);
+    assert_eq!(codes(20.0, 20.0, None, 1.15), [], "a child");
 }

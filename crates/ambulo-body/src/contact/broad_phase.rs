@@ -7,6 +7,7 @@
 //! Cost: n log n for the sort, plus the number of pairs that overlap along that axis.
 //! Pinned by: tests/contact_geometry.rs
 
+use crate::numerics::Order;
 use crate::spatial::Vec3;
 
 /// Fills `out` with the sorted pairs (i, j), i < j, whose boxes (low and high corner [m]) overlap or touch and that
@@ -34,7 +35,7 @@ pub fn candidate_pairs(
         }
     }
     let axis = axis_of_greatest_spread(&sorted);
-    sorted.sort_by(|a, b| a.1[axis].total_cmp(&b.1[axis]).then(a.0.cmp(&b.0)));
+    sorted.sort_by_number(|(_, low, _)| low[axis]);
     for (n, (i, low, high)) in sorted.iter().enumerate() {
         for (j, other_low, other_high) in &sorted[n + 1..] {
             if other_low[axis] > high[axis] {

@@ -473,6 +473,14 @@ codes! {
     MassScaled "mass.scaled" Note
         "The model was scaled to the stated mass and stature."
         "Nothing to do.";
+    MassStatedTwice "mass.stated_twice" Warning
+        "The given body mass is not the one that the recording states, and no force plate decides; the given one was \
+         used."
+        "Give the mass in kilograms, or correct the one in the file.";
+    MassUnusual "mass.unusual" Warning
+        "Mass and stature give a body mass index that people who walk do not have: mass, stature or the unit of the \
+         force plates is wrong."
+        "Check mass [kg] and stature [m], and the unit and the amplifier of the force plates.";
     MassUnverified "mass.unverified" Warning
         "The body mass is neither given nor measured; every force is proportional to it."
         "Give the mass or a standing trial on force plates.";
@@ -480,6 +488,13 @@ codes! {
     PlatesUnusable "plates.unusable" Warning
         "A force plate was left out."
         "The message states what is missing or wrong in the file.";
+    PlatesExcursion "plates.excursion" Warning
+        "A channel of a force plate jumps away from its course and back within 50 ms, which no load does. Straight \
+         lines were drawn instead."
+        "Look for a loose cable; the force there is an interpolation.";
+    PlatesStillChannel "plates.still_channel" Warning
+        "A channel of a loaded force plate has one value all the time, so a part of the force is missing."
+        "Check cables, amplifier and the order of the channels in the file.";
     PlatesOriginTurned "plates.origin_turned" Note
         "ORIGIN of a plate has the opposite sign, a usual error of programs, and was reversed."
         "Nothing to do.";
@@ -621,6 +636,10 @@ codes! {
     EventsNotUsed "events.not_used" Note
         "An event of the file is neither a foot strike nor a foot off of a side; it was not used."
         "Nothing to do.";
+    EventsContradicted "events.contradicted" Warning
+        "The foot strikes and foot offs that the file lists contradict the force plates: right and left are exchanged, \
+         or they are early or late. They were not used."
+        "Correct the events in the file.";
     EventsNoFootMarkers "events.no_foot_markers" Note
         "A foot has no marker on heel or toe, so its events cannot be detected from motion."
         "Put markers on heel and toe of both feet.";

@@ -23,7 +23,7 @@ use super::spread;
 use crate::model::{Model, Side};
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::{asin, atan2};
-use crate::numerics::{correlation, mean};
+use crate::numerics::{correlation, mean, sort_numbers};
 use crate::spatial::Vec3;
 
 /// Smallest range of flexion that shows an axis [rad]; walking has 60 degrees.
@@ -79,7 +79,7 @@ fn of_directions(directions: &[Vec3]) -> Option<CrossTalk> {
 /// Range of the values without those at the ends.
 fn inner_range(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sort_numbers(&mut sorted);
     let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
     let cut = (ENDS * last as f64) as usize;
     sorted[last - cut] - sorted[cut]

@@ -37,7 +37,7 @@ use super::spread;
 use crate::kinematics::calibration::axes::fit_pose;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::asin;
-use crate::numerics::{DenseLu, Random, counted, degrees};
+use crate::numerics::{DenseLu, Order, Random, counted, degrees};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Smallest range of the thigh in the plane in which it moves least [rad]: that of Ehrig's narrowest cone.
@@ -358,7 +358,7 @@ impl BallJoint {
         let mean = directions.iter().sum::<Vec3>() / directions.len() as f64;
         let spread: Mat3 = directions.iter().map(|d| (d - mean) * (d - mean).transpose()).sum();
         let mut values: Vec<f64> = spread.symmetric_eigenvalues().iter().map(|v| v / directions.len() as f64).collect();
-        values.sort_by(|a, b| b.total_cmp(a));
+        values.sort_by_number(|value| -value);
         let noise = (residual_m / length).powi(2) / self.places.len() as f64;
         [values[0], values[1]].map(|v| 2.0 * asin((2.0 * (v - noise).max(0.0)).sqrt().min(1.0)))
     }

@@ -11,7 +11,7 @@
 use crate::model::Model;
 use crate::motion::{MarkerRecording, Motion};
 use crate::numerics::elementary::powi;
-use crate::numerics::median;
+use crate::numerics::{median, sort_numbers};
 use crate::spatial::STANDARD_GRAVITY;
 use std::ops::Range;
 
@@ -49,7 +49,7 @@ impl FlightGravity {
     pub fn of(model: &Model, motion: &Motion, markers: &MarkerRecording) -> Option<FlightGravity> {
         let lowest = lowest_points(markers);
         let mut sorted: Vec<f64> = lowest.iter().copied().filter(|y| y.is_finite()).collect();
-        sorted.sort_by(f64::total_cmp);
+        sort_numbers(&mut sorted);
         let floor = *sorted.get((FLOOR * sorted.len() as f64) as usize)?;
         let height = |frame: usize| {
             let value = |column: &Option<Vec<f64>>| column.as_ref().map_or(0.0, |column| column[frame]);

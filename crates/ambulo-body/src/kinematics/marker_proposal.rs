@@ -24,7 +24,7 @@ use crate::model::full_body::full_body;
 use crate::model::marker_set::{Landmark, MarkerDefinition, NamedMarker, RecognisedMarkers, Segment};
 use crate::model::{Coordinate, Marker, Side};
 use crate::motion::{Heading, MarkerRecording};
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 use crate::spatial::{Pose, Vec3, rotation_about};
 use std::f64::consts::FRAC_PI_2;
 
@@ -96,7 +96,7 @@ pub fn propose_markers(
     };
     let mut found: Vec<(f64, NamedMarker)> =
         names.iter().filter_map(|name| reference.proposal(recording, name)).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.sort_by_number(|found| found.0);
     let proposed: Vec<String> = found.iter().map(|(_, marker)| marker.name.clone()).collect();
     for (_, mut marker) in found {
         let is_taken = |known: &NamedMarker| {
@@ -117,7 +117,7 @@ pub fn markers_at_joints(recording: &MarkerRecording, recognised: &RecognisedMar
     let Some(reference) = Reference::sized(recording, recognised) else { return Vec::new() };
     let mut found: Vec<(f64, NamedMarker)> =
         recognised.unknown.iter().filter_map(|name| reference.proposal(recording, name)).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.sort_by_number(|found| found.0);
     let mut placed: Vec<NamedMarker> = Vec::new();
     for (_, marker) in found {
         let MarkerDefinition { landmark, side, .. } = marker.definition;

@@ -14,7 +14,7 @@ use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, res
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::POINT_DISTANCE_M;
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::median;
+use crate::numerics::{median, sort_numbers};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with
@@ -62,7 +62,7 @@ pub(super) fn standing_ankle_height(markers: &MarkerRecording, sides: &[Side]) -
     let measured = Measured { markers };
     let paths = sides.iter().filter_map(|side| measured.path(&sided("ankle", *side)));
     let mut heights: Vec<f64> = paths.flatten().map(|place| place.y).filter(|y| y.is_finite()).collect();
-    heights.sort_by(f64::total_cmp);
+    sort_numbers(&mut heights);
     heights.get((STANDING * heights.len() as f64) as usize).copied().unwrap_or(f64::NAN)
 }
 

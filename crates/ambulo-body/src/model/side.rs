@@ -29,6 +29,15 @@ impl Side {
         }
     }
 
+    /// Place in an order of sides: 0 right, 1 left.
+    #[must_use]
+    pub fn rank(self) -> f64 {
+        match self {
+            Side::Right => 0.0,
+            Side::Left => 1.0,
+        }
+    }
+
     /// The opposite side.
     #[inline]
     #[must_use]

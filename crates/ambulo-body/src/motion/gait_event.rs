@@ -2,6 +2,7 @@
 
 use crate::findings::{Code, Findings, word};
 use crate::model::Side;
+use crate::numerics::Order;
 use ambulo_formats::c3d::C3d;
 use std::fmt;
 
@@ -57,7 +58,7 @@ pub fn events_from_c3d(file: &C3d, findings: &mut Findings) -> Vec<Event> {
             }
         }
     }
-    found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    found.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     without_repetitions(found)
 }
 

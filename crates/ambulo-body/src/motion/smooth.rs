@@ -12,7 +12,7 @@ use super::recording::{Motion, MotionError};
 use super::time_grid::{TimeGrid, Window};
 use crate::findings::{Code, Findings};
 use crate::model::{Coordinate, CoordinateId, Drive, Model};
-use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter};
+use crate::numerics::{NaturalSpline, Smoothing, SplineDegree, SplineFitter, sort_numbers};
 use std::borrow::Cow;
 
 /// The smoothing method.
@@ -204,7 +204,7 @@ fn uniform_grid(motion: &Motion, window: Window, findings: &mut Findings) -> Res
         return Ok(grid);
     }
     let mut steps: Vec<f64> = motion.times.windows(2).map(|w| w[1] - w[0]).collect();
-    steps.sort_by(f64::total_cmp);
+    sort_numbers(&mut steps);
     let (median, longest) = (steps[steps.len() / 2], steps[steps.len() - 1]);
     if longest > LONGEST_GAP_S.max(2.0 * median) {
         let gap = motion.times.windows(2).find(|w| w[1] - w[0] >= longest).unwrap_or(&[0.0, 0.0]);

@@ -25,6 +25,7 @@
 //! their constants; explained in Hansen 2016, The CMA Evolution Strategy: A Tutorial, arXiv 1604.00772 (only its
 //! abstract was read). Cost: two eigendecompositions of C per generation.
 
+use super::order::Order;
 use super::random::Random;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::{Deserialize, Serialize};
@@ -170,7 +171,7 @@ impl Cma {
         self.generations += 1;
         let rank = |k: usize| costs.get(k).copied().filter(|cost| cost.is_finite()).unwrap_or(f64::INFINITY);
         let mut order: Vec<usize> = (0..candidates.len()).collect();
-        order.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
+        order.sort_by_number(|k| rank(*k));
         if !order.first().is_some_and(|best| rank(*best).is_finite()) {
             return;
         }

@@ -17,6 +17,7 @@ mod harmonics;
 mod least_squares;
 mod matrix_product;
 mod natural_spline;
+mod order;
 mod profile_cholesky;
 mod random;
 mod shown;
@@ -44,6 +45,7 @@ pub use matrix_product::product;
 #[doc(hidden)]
 pub use natural_spline::SplineError;
 pub use natural_spline::{NaturalSpline, SplineDegree};
+pub use order::{Order, sort_numbers};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]

@@ -2,6 +2,8 @@
 //!
 //! Sums run from the first number to the last, so that equal numbers give equal bits. Pinned by: tests/statistics.rs
 
+use super::order::sort_numbers;
+
 /// Mean; 0 without numbers.
 #[must_use]
 pub fn mean(values: &[f64]) -> f64 {
@@ -21,7 +23,7 @@ pub fn finite_mean(values: impl IntoIterator<Item = f64>) -> f64 {
 #[must_use]
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut list: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-    list.sort_by(f64::total_cmp);
+    sort_numbers(&mut list);
     let count = list.len();
     let upper = *list.get(count / 2)?;
     let lower = *list.get(count.saturating_sub(1) / 2)?;

@@ -1,6 +1,7 @@
 //! Mass and inertia of a rigid body.
 
 use super::{Mat3, Pose, Vec3};
+use crate::numerics::sort_numbers;
 
 /// Mass, mass centre and inertia about it, in the axes of a frame that the context states.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +71,7 @@ impl Inertia {
     #[must_use]
     pub fn defect(&self) -> Option<String> {
         let mut principal = self.about_center.symmetric_eigenvalues();
-        principal.as_mut_slice().sort_by(f64::total_cmp);
+        sort_numbers(principal.as_mut_slice());
         let [small, middle, large] = principal.into();
         let shown = format!("principal moments {small:.3e}, {middle:.3e}, {large:.3e} kg.m²");
         if small < -TRIANGLE_SLACK * large.abs() {

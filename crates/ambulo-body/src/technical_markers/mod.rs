@@ -34,7 +34,7 @@ use crate::model::marker_set::{NamedMarker, Segment};
 use crate::model::neck_and_wrists::{HEAD as HEAD_BODY, hand};
 use crate::model::{BodyId, Marker, Model, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 use crate::spatial::Vec3;
 use segment_motion::{Chosen, SegmentMotion};
 use std::collections::BTreeMap;
@@ -195,7 +195,7 @@ impl Search<'_> {
             self.on(body, name, self.weight(segment, body)).filter(|placed| self.is_near(placed, segment))
         };
         let mut segments: Vec<Placed> = of_sets.filter_map(on).collect();
-        segments.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+        segments.sort_by_number(|segment| segment.distance_m);
         let least_m = segments.first()?.distance_m;
         if let Some((body, weight)) = own
             && let Some(named) = segments.iter().find(|placed| placed.body == body)

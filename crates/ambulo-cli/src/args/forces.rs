@@ -322,7 +322,8 @@ pub(crate) struct SubjectArgs {
     /// recordings are refused].
     #[arg(long, value_name = "NAME")]
     pub(crate) subject: Option<String>,
-    /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %. A
+    /// Body mass [kg]; the mass of a standing trial on force plates is used instead if it differs by less than 5 %, or
+    /// if the motion on force plates agrees with it and not with KG. A
     /// given model is scaled to it [default: as measured by the force plates or stated in the recording; with --model
     /// the model's].
     #[arg(long, value_name = "KG", allow_negative_numbers = true, value_parser = kilograms)]

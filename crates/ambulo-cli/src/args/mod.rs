@@ -30,7 +30,7 @@ pub(crate) use tools::{CompareArgs, InfoArgs, ReproduceArgs, SimulateArgs, TuneA
 pub(crate) use trial_files::TrialWords;
 pub(crate) use validate::ValidateArgs;
 pub(crate) use values::{Endpoint, TimedValue, Values};
-pub(crate) use walk::{DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
+pub(crate) use walk::{ConditionArgs, DemoArgs, FigureArgs, GaitArgs, SweepArgs, WalkArgs, WalkMode};
 pub(crate) use words_of_request::{line, with_options};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};

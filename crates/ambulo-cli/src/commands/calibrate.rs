@@ -30,7 +30,9 @@ pub(crate) fn compute(request: &CalibrateRequest, print: PrintArgs, caller: &Cal
         let settings = Processing { ground: GroundSettings::Predicted, ..of_trial.settings.clone() };
         let job = Job { settings, ..of_trial };
         job.check()?;
-        outcomes.push(forces::compute(&job, Outputs::default(), caller)?.into_outcome());
+        let run = forces::compute(&job, Outputs::default(), caller)?;
+        printer::warnings_of_trial(trial, run.findings.as_slice(), print);
+        outcomes.push(run.into_outcome());
     }
     personal_errors(&outcomes).map_err(|error| {
         let trial = error.trial().map(|number| trials[number].display().to_string());

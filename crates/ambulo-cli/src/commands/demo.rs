@@ -34,6 +34,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Completion> {
     let run = SyntheticRun {
         walk: &walk,
         walk_settings: &settings,
+        device: None,
         thresholds: Thresholds::default(),
         convention: Convention::default(),
         read: Vec::new(),

@@ -12,6 +12,7 @@ use ambulo::job::ending;
 use ambulo::model::Side;
 use ambulo::motion::skeleton::skeleton_from_bvh;
 use ambulo::motion::{Event, EventKind, MarkerRecording, PlateRecording, straightened};
+use ambulo::numerics::Order;
 use ambulo::study::LaboratoryFile;
 use ambulo_formats::bvh::Bvh;
 use ambulo_formats::table::Table;
@@ -145,7 +146,7 @@ fn push(events: &mut Vec<Event>, side: Side, strike_s: Option<f64>, off_s: Optio
 }
 
 fn sorted(mut events: Vec<Event>) -> Vec<Event> {
-    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    events.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     events
 }
 

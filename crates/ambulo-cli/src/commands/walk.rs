@@ -2,7 +2,7 @@
 
 use super::run_files::{MoreFiles, MotionRun, read_thresholds};
 use super::stopwatch::Stopwatch;
-use crate::args::{FigureArgs, GaitArgs, TimedValue, WalkArgs, WalkMode};
+use crate::args::{ConditionArgs, FigureArgs, GaitArgs, TimedValue, WalkArgs, WalkMode};
 use crate::caller::Caller;
 use crate::replacement::ResultTarget;
 use crate::request::WrongFields;
@@ -14,7 +14,7 @@ use ambulo::gait::machine::StateChange;
 use ambulo::gait::{Gait, PaceChange, Style, Walk};
 use ambulo::model::anthropometry::{Build, BuildError, SegmentTable, UnknownTable};
 use ambulo::motion::RecordedTable;
-use ambulo::numerics::NaturalSpline;
+use ambulo::numerics::{NaturalSpline, Order};
 use ambulo::optimal::{Device, WalkConditions};
 use ambulo::simulation::synthetic::{
     SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, predict, replay, run_of_states, synthesise,
@@ -107,6 +107,7 @@ fn walked(
     let run = SyntheticRun {
         walk: &walk,
         walk_settings: &walk_settings,
+        device: args.conditions.device.as_ref().map(|path| path.display().to_string()),
         thresholds,
         convention: args.convention.into(),
         read,
@@ -121,11 +122,11 @@ fn walked(
 /// The mode that the user chose, or that the conditions need.
 fn asked_mode(args: &WalkArgs, conditions: &WalkConditions) -> Result<Option<SyntheticMode>> {
     let asked = if args.planar { Some(SyntheticMode::Corrected) } else { args.mode.map(WalkMode::mode) };
-    if *conditions == WalkConditions::default() {
-        return Ok(asked);
-    }
     match asked {
-        None | Some(SyntheticMode::Predicted) => Ok(Some(SyntheticMode::Predicted)),
+        // A slope of zero asks for a prediction, too.
+        None => Ok((args.conditions != ConditionArgs::default()).then_some(SyntheticMode::Predicted)),
+        Some(SyntheticMode::Predicted) => Ok(asked),
+        Some(_) if *conditions == WalkConditions::default() => Ok(asked),
         Some(mode) => {
             let fields = &["slope", "load", "weak", "device", "step_width", "asymmetric", "free_cadence"];
             let what = format!(
@@ -206,6 +207,8 @@ const DEFAULT_OUTPUT: &str = "out";
 pub(super) struct SyntheticRun<'a> {
     pub(super) walk: &'a SyntheticWalk,
     pub(super) walk_settings: &'a SyntheticWalkSettings<'a>,
+    /// The file of the devices.
+    pub(super) device: Option<String>,
     pub(super) thresholds: Thresholds,
     /// Convention of the angles of pelvis and hips.
     pub(super) convention: Convention,
@@ -233,7 +236,7 @@ impl SyntheticRun<'_> {
             study::run_observed(source(self.walk, self.walk_settings.mode), &settings, &mut findings, &mut watch)?;
         Ok(MotionRun {
             outcome,
-            input: input(self.walk_settings),
+            input: Input { device: self.device.clone(), ..input(self.walk_settings) },
             convention: self.convention,
             walk: Some(WalkSummary::new(&self.walk.human.model, &self.walk.report)),
             files: self.files()?,
@@ -359,7 +362,7 @@ fn gait(name: &str, args: &GaitArgs, findings: &mut Findings) -> Result<(Gait, V
         );
     }
     gait.pace_changes.extend(changes);
-    gait.pace_changes.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
+    gait.pace_changes.sort_by_number(|change| change.start_s);
     if let Some(height) = args.step_height {
         gait.step_height = height;
     }

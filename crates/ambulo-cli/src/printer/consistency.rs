@@ -2,6 +2,7 @@
 
 use super::print_line;
 use ambulo::dynamics::residual_reduction::RootResidual;
+use ambulo::numerics::Order;
 use ambulo_results::{ChangeUnit, ConsistencySummary, CoordinateSize};
 use anyhow::Result;
 
@@ -47,7 +48,7 @@ fn residual_line(when: &str, residual: &RootResidual) -> String {
 /// Coordinates in this unit, the largest change first.
 fn largest(summary: &ConsistencySummary, unit: ChangeUnit) -> Vec<(&String, &CoordinateSize)> {
     let mut list: Vec<_> = summary.changes.iter().filter(|(_, size)| size.unit == unit).collect();
-    list.sort_by(|a, b| b.1.max.total_cmp(&a.1.max));
+    list.sort_by_number(|(_, change)| -change.max);
     list.truncate(SHOWN);
     list
 }

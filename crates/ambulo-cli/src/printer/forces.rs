@@ -6,7 +6,7 @@ use super::{
 };
 use crate::args::PrintArgs;
 use ambulo::analysis::PredictionCheck;
-use ambulo::numerics::counted;
+use ambulo::numerics::{Order, counted};
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo::simulation::synthetic::SyntheticMode;
 use ambulo::study::{MassState, MassWitness, Quality};
@@ -143,7 +143,7 @@ fn print_tracking(tracking: &TrackingSummary) -> Result<()> {
 fn largest_peaks(summary: &Summary) -> impl Iterator<Item = &PeakSummary> {
     let mut peaks: Vec<&PeakSummary> = summary.peaks.iter().filter(|p| p.unit == ForceUnit::NewtonMetre).collect();
     let size = |peak: &PeakSummary| peak.max.abs().max(peak.min.abs());
-    peaks.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    peaks.sort_by_number(|peak| -size(peak));
     peaks.into_iter().take(3)
 }
 
@@ -210,7 +210,7 @@ fn print_walk(walk: &WalkSummary) -> Result<()> {
         (walk.parameters_adjusted, &walk.adjustment_deg, &walk.pelvis_path_mm)
     {
         let mut largest: Vec<_> = degrees.iter().collect();
-        largest.sort_by(|(_, a), (_, b)| b.rms.total_cmp(&a.rms));
+        largest.sort_by_number(|(_, size)| -size.rms);
         let shown = largest.iter().take(ANGLES_SHOWN);
         let angles: Vec<String> =
             shown.map(|(name, size)| format!("{} {:.1}", name.trim_end_matches("_r"), size.rms)).collect();

@@ -227,6 +227,14 @@ fn print_findings(findings: &[Finding]) {
     }
 }
 
+/// Prints the warnings of one of several trials, with its name.
+pub(crate) fn warnings_of_trial(trial: &Path, findings: &[Finding], print: PrintArgs) {
+    for finding in findings.iter().filter(|finding| finding.severity() == Severity::Warning && !print.quiet) {
+        let message = with_hint(&format!("{}: {}", trial.display(), finding.message), hints::of_finding(finding.code));
+        say(format_args!("warning: {}", visible(&message)));
+    }
+}
+
 /// Prints the first warnings, and the number of further warnings and notes.
 fn print_warnings(findings: &[Finding]) {
     /// With one line for the rest and the lines of a run, a terminal of 25 lines shows everything.

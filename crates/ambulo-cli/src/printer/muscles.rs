@@ -1,7 +1,7 @@
 //! Prints muscle forces.
 
 use super::print_line;
-use ambulo::numerics::{counted, mean};
+use ambulo::numerics::{Order, counted, mean};
 use ambulo_results::{EmgSummary, MuscleOrigin, MuscleSummary, QuantitySummary, SpreadSummary};
 use anyhow::Result;
 
@@ -27,7 +27,7 @@ pub(super) fn print_muscles(found: &MuscleSummary) -> Result<()> {
 /// The mean agreement of EMG with activations, and the muscles in which it is least and greatest.
 fn print_emg(channels: &[EmgSummary]) -> Result<()> {
     let mut known: Vec<(f64, &EmgSummary)> = channels.iter().filter_map(|emg| Some((emg.r?, emg))).collect();
-    known.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    known.sort_by_number(|(r, _)| *r);
     let (Some((low, least)), Some((high, most))) = (known.first(), known.last()) else { return Ok(()) };
     let mean = mean(&known.iter().map(|(r, _)| *r).collect::<Vec<_>>());
     print_line(&format!(

@@ -1,6 +1,6 @@
 //! Which samples of a channel were recorded: the others are missing, or a program filled them with one number.
 
-use ambulo_body::numerics::rms;
+use ambulo_body::numerics::{rms, sort_numbers};
 use std::ops::Range;
 
 /// Equal successive samples for longer than this were not recorded [s].
@@ -54,7 +54,7 @@ pub(super) fn inside(samples: &[f64], recorded: &[Range<usize>]) -> Vec<f64> {
 
 /// A percentile with linear interpolation between the sorted values, `share` from 0 to 1; 0 without values.
 pub(super) fn percentile(mut values: Vec<f64>, share: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
+    sort_numbers(&mut values);
     let Some(last) = values.len().checked_sub(1) else { return 0.0 };
     let place = share * last as f64;
     let (below, above) = (place.floor() as usize, place.ceil() as usize);

@@ -13,6 +13,7 @@ use ambulo::model::anthropometry::Human;
 use ambulo::model::marker_set::MarkerSet;
 use ambulo::model::{Marker, Model, Side};
 use ambulo::motion::{ForceRecording, MarkerPath, MarkerRecording, TimeGrid, interpolate};
+use ambulo::numerics::Order;
 use ambulo::spatial::{Mat3, Vec3};
 use ambulo_formats::c3d::{C3d, Channel, Event, Parameter, Platform, Point, Values};
 
@@ -51,7 +52,7 @@ pub fn laboratory_recording(
             add_events(&mut c3d, side, &times, from, to);
         }
     }
-    c3d.events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    c3d.events.sort_by_number(|event| event.time_s);
     c3d.set_platforms(&platforms);
     Ok(c3d)
 }

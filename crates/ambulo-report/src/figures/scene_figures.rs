@@ -2,6 +2,7 @@
 
 use super::FigureError;
 use super::chart::{CURVE_COLORS, Chart, ChartAxis, ChartCurve, ChartPanel, CurveForm};
+use ambulo::numerics::Order;
 use ambulo::numerics::elementary::log10;
 use ambulo::simulation::SceneVerdict;
 use ambulo::simulation::scene::{Plot, Scene, SceneFrame};
@@ -241,7 +242,7 @@ fn largest(curves: impl Iterator<Item = (String, Curve)>) -> Vec<(String, Curve)
     if curves.len() > MOST_CURVES {
         let size = |curve: &[[f64; 2]]| curve.iter().fold(0.0_f64, |m, [_, y]| m.max(y.abs()));
         let mut sizes: Vec<f64> = curves.iter().map(|(_, curve)| size(curve)).collect();
-        sizes.sort_by(|a, b| b.total_cmp(a));
+        sizes.sort_by_number(|value| -value);
         let least = sizes[MOST_CURVES - 1];
         curves.retain(|(_, curve)| size(curve) >= least);
         curves.truncate(MOST_CURVES);

@@ -4,7 +4,7 @@
 use super::differences::{Change, TimeChange, time_changes};
 use super::summary::{ChangeSummary, ChangesSummary};
 use super::{ComparedSession, ProfileSummary, Session, Spread, profile_summary};
-use ambulo::numerics::rms;
+use ambulo::numerics::{Order, rms};
 use ambulo::study::session::{Certainty, NormalCurve, least_change};
 
 /// Curves on the first sheet.
@@ -24,7 +24,7 @@ pub(super) fn answer(compared: &ComparedSession, before: &Session) -> ChangesSum
     let of_certainty =
         |wanted: Certainty| compared.changes.iter().filter(move |change| change.found.certainty == wanted);
     let mut clear: Vec<&Change> = of_certainty(Certainty::Clear).collect();
-    clear.sort_by(|a, b| size(b, compared).total_cmp(&size(a, compared)));
+    clear.sort_by_number(|change| -size(change, compared));
     let without = without_calibration(compared);
     let profiles = before.summary.profile.as_ref().zip(compared.session.summary.profile.as_ref());
     ChangesSummary {

@@ -5,6 +5,7 @@ use crate::stage::{BodyPath, Stage, StageBody};
 use crate::style::{Style, style};
 use ambulo::analysis::Cycle;
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 use ambulo::spatial::Vec3;
 use ambulo::study::Outcome;
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -131,7 +132,7 @@ fn polygon(svg: &mut String, corners: &[[f64; 2]], color: &str) {
 
 /// The convex hull of points, by the chains of Andrew 1979 (unverified).
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.sort_by_numbers(|place| [place[0], place[1]]);
     let turns_left =
         |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0;
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {

@@ -4,6 +4,7 @@
 use super::StageForce;
 use super::csv_rows::Row;
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 use ambulo::spatial::Vec3;
 use ambulo_results::{CONTACTS, Folder, ResultsError};
 use std::collections::BTreeMap;
@@ -47,7 +48,7 @@ pub(super) fn read(
     let mut forces: Vec<StageForce> = pairs.iter().map(|(pair, sums)| arrow(pair, sums, times.len())).collect();
     let left = forces.len().saturating_sub(MOST_PAIRS);
     if left > 0 {
-        forces.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
+        forces.sort_by_number(|force| -largest(force));
         forces.truncate(MOST_PAIRS);
     }
     let note = format!(

@@ -1,6 +1,7 @@
 //! Height of the floor.
 
 use super::{StageBody, StageContact, StageForce, StagePlate};
+use ambulo::numerics::sort_numbers;
 
 /// Height of the floor [m]: from the plates, otherwise from the points where forces act, otherwise from the lowest
 /// point of the soles, otherwise zero.
@@ -16,7 +17,7 @@ pub(super) fn height(
 }
 
 fn median(mut heights: Vec<f64>) -> Option<f64> {
-    heights.sort_by(f64::total_cmp);
+    sort_numbers(&mut heights);
     heights.get(heights.len() / 2).copied()
 }
 

@@ -5,6 +5,7 @@
 
 use super::{ForceRole, Stage};
 use ambulo::model::Side;
+use ambulo::numerics::sort_numbers;
 
 /// Share of body weight above which a foot is certainly in stance.
 const ENOUGH: f64 = 0.2;
@@ -23,7 +24,7 @@ pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
             heights.min_by(f64::total_cmp)
         };
         let mut gaps: Vec<f64> = (0..stage.grid.frames).filter(carries).filter_map(lowest).collect();
-        gaps.sort_by(f64::total_cmp);
+        sort_numbers(&mut gaps);
         let median = gaps.get(gaps.len() / 2).map_or(0.0, |height| height - stage.floor_m);
         median.clamp(-MOST_SUNK, MOST_SUNK)
     })

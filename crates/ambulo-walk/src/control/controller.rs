@@ -37,6 +37,7 @@ use crate::engine::{Motor, StepSettings};
 use crate::findings::Findings;
 use crate::model::CoordinateId;
 use crate::model::anthropometry::Human;
+use crate::numerics::Order;
 use crate::optimal::{Solution, StandingMovements};
 use crate::walking::TorqueSeries;
 use std::sync::Arc;
@@ -152,7 +153,7 @@ impl WalkController {
             }
         }
         let mut paces: Vec<Arc<Pace>> = controllers.iter().flat_map(|other| other.plan.paces.iter().cloned()).collect();
-        paces.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        paces.sort_by_number(|pace| pace.speed);
         Ok(WalkController { plan: WalkPlan { paces, ..first.plan.clone() }, ..first.clone() })
     }
 

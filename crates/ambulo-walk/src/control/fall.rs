@@ -35,15 +35,14 @@ pub struct Fall {
 }
 
 impl Fall {
-    /// A sentence about the fall: time, steps and cause.
-    pub(crate) fn description(&self, name: &str, model: &Model) -> String {
-        let cause = self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
+    /// What the muscles did before the fall.
+    pub(crate) fn cause(&self, model: &Model) -> String {
+        self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
             format!(
                 "the muscles of `{}` were at their strength from {since_s:.2} s",
                 model.coordinates()[id.index()].name
             )
-        });
-        format!("{name} fell at {:.2} s after {} steps; {cause}", self.time_s, self.strikes)
+        })
     }
 }
 

@@ -126,9 +126,9 @@ impl FigureRecorder {
         }
     }
 
-    /// Message about a fall.
+    /// Message about a fall. Its time and the steps before it are measured afterwards, as those of other figures.
     pub(crate) fn description(&self, fall: &Fall) -> String {
-        fall.description(&format!("`{}`", self.name), &self.human.model)
+        format!("`{}` fell; {}", self.name, fall.cause(&self.human.model))
     }
 
     /// Sets the motors of a figure that walks by its own torques.

@@ -121,6 +121,9 @@ impl Device {
             let list = table.get("moments");
             let expected = "a list of moments over the gait cycle [N.m]";
             let values = list.map_or(Ok(Vec::new()), |list| list.list(expected))?;
+            if ["stiffness", "damping", "moments"].iter().all(|key| table.get(key).is_none()) {
+                return Err(table.missing("stiffness", "a stiffness, a damping or moments: a device has one of them"));
+            }
             devices.push(Device {
                 coordinate: table.need("joint", "the coordinate of the joint")?.filled_text()?,
                 stiffness: table.zero_or_more_or("stiffness", 0.0)?,

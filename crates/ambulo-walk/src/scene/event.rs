@@ -4,6 +4,7 @@ use super::SceneError;
 use super::closure::ClosureEntry;
 use super::joint::JointEntry;
 use super::names::{Item, Names};
+use crate::numerics::Order;
 use crate::toml_reader::{Table, Value};
 
 /// A change at one instant.
@@ -42,7 +43,7 @@ pub(super) fn read_all(
         let (change, value) = change(&table, links)?;
         list.push((EventEntry { line: table.line, time_s, change }, value));
     }
-    list.sort_by(|a, b| a.0.time_s.total_cmp(&b.0.time_s));
+    list.sort_by_number(|event| event.0.time_s);
     refuse_idle(&list, joints, closures)?;
     Ok(list.into_iter().map(|(event, _)| event).collect())
 }

@@ -33,7 +33,11 @@ pub(super) fn predicted(
     conditions: &WalkConditions,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
-    let (walk, kept) = planned(settings, findings)?;
+    let no_curves = |gait| SyntheticError::Predicted { gait };
+    let (walk, kept) = planned(settings, findings).map_err(|error| match error {
+        SyntheticError::Changing { gait } | SyntheticError::NotOfPeople { gait } => no_curves(gait),
+        other => other,
+    })?;
     if !conditions.free_cadence {
         let found = OptimalWalk::predict(&settings.build, &walk, conditions)?;
         return reported(settings, (walk, kept), found, None);

@@ -8,6 +8,7 @@ use crate::engine::StepSettings;
 use crate::findings::{Code, Findings};
 use crate::gait::{Gait, Speed, Walk};
 use crate::model::anthropometry::Human;
+use crate::numerics::counted;
 use crate::optimal::{OptimalWalk, StandingMovements};
 use crate::walking::WalkRecording;
 
@@ -39,7 +40,9 @@ pub(super) fn physical(
         findings.report(found.code, found.message.clone());
     }
     if let Some(fall) = figure.fall() {
-        findings.report(Code::FigureFell, fall.description("the figure", &human.model));
+        let steps = counted(fall.strikes, "step");
+        let message = format!("the figure fell at {:.2} s after {steps}; {}", fall.time_s, fall.cause(&human.model));
+        findings.report(Code::FigureFell, message);
         kept = KeptPart::of_rows(settings, kept.first.min(recording.grid().frames - 1), recording.grid().frames);
     }
     let correction = CorrectionReport::of(&first.problem, &first.solution, first.solution.cycle_s())?;

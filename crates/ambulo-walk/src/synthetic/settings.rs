@@ -161,6 +161,16 @@ pub enum SyntheticError {
         /// Name of the gait.
         gait: String,
     },
+    /// Predicted walks follow no curves.
+    #[error(
+        "the gait `{gait}`: found machines, changes of pace, or curves, joints or steps that are changed; expected a \
+         gait of healthy people at constant pace, because a predicted walk takes its speed and steps and follows none \
+         of its curves. hint: give another gait; sides differ where their strengths or devices do"
+    )]
+    Predicted {
+        /// Name of the gait.
+        gait: String,
+    },
     /// A free cadence is found, not given.
     #[error(
         "the gait `{gait}`: found a length or a frequency of its steps, and a free cadence; expected one of them, \
@@ -187,7 +197,7 @@ pub enum SyntheticError {
     /// Figures in three dimensions have toe joints.
     #[error(
         "found a figure without toe joints; expected toe joints, because the figure in three dimensions has them. \
-         hint: use the mode `corrected` or `paper`"
+         hint: the modes `corrected` and `paper` need none, on level ground and without loads, weak joints and devices"
     )]
     NoToeJoint,
     /// Torques of one cycle cannot replay a gait whose cycles differ.

@@ -4,7 +4,7 @@
 //! Pinned by: tests/foot_motion.rs
 
 use super::events::{Event, EventKind};
-use crate::numerics::or_nan;
+use crate::numerics::{Order, or_nan};
 use serde::{Deserialize, Serialize};
 
 /// Events further apart than this are different events [s]: a third of a fast step.
@@ -64,7 +64,7 @@ fn pairs(reference: &[Event], found: &[Event]) -> Vec<f64> {
         let same = found.iter().enumerate().filter(|(_, b)| b.side == a.side);
         candidates.extend(same.map(|(j, b)| (i, j, b.time_s - a.time_s)).filter(|(_, _, d)| d.abs() <= FARTHEST_S));
     }
-    candidates.sort_by(|a, b| a.2.abs().total_cmp(&b.2.abs()).then((a.0, a.1).cmp(&(b.0, b.1))));
+    candidates.sort_by_number(|(_, _, difference)| difference.abs());
     let (mut used, mut taken) = (vec![false; reference.len()], vec![false; found.len()]);
     let mut differences = Vec::new();
     for (i, j, difference) in candidates {

@@ -3,6 +3,7 @@
 pub use crate::ground::phases::{Contact, SHORTEST_CONTACT_S, contacts_from_force};
 use crate::model::Side;
 pub use crate::motion::{Event, EventKind};
+use crate::numerics::Order;
 
 /// The events of both feet in order of time.
 #[must_use]
@@ -15,6 +16,6 @@ pub fn events(contacts: &[(Side, Vec<Contact>)]) -> Vec<Event> {
             list.extend(contact.off_s.map(|t| event(EventKind::Off, t)));
         }
     }
-    list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    list.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     list
 }

@@ -24,7 +24,7 @@ use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, interpolate};
 use crate::numerics::elementary::acos;
-use crate::numerics::{mean, sample_deviation};
+use crate::numerics::{Order, mean, sample_deviation};
 use crate::spatial::Vec3;
 
 /// A floor velocity below this share of the walking speed is taken as zero.
@@ -408,7 +408,7 @@ impl Places {
             Some(Strike { side: event.side, time_s: event.time_s, heel })
         };
         let mut strikes: Vec<Strike> = strikes.filter_map(placed).collect();
-        strikes.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        strikes.sort_by_number(|event| event.time_s);
         Places { floor, strikes }
     }
 

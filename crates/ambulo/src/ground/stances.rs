@@ -22,6 +22,7 @@ use super::plates::{ContactQuality, FeetOnPlates, PlateContact};
 use super::predict::Prediction;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{TimeGrid, Window};
+use crate::numerics::Order;
 use std::fmt;
 use std::ops::Range;
 
@@ -148,7 +149,7 @@ impl LoadedTime {
 
 /// Whole loads of a foot that follow each other on several plates are one.
 fn merged(mut times: Vec<LoadedTime>) -> Vec<LoadedTime> {
-    times.sort_by(|a, b| a.side.cmp(&b.side).then(a.span[0].total_cmp(&b.span[0])));
+    times.sort_by_numbers(|time| [time.side.rank(), time.span[0]]);
     let mut out: Vec<LoadedTime> = Vec::new();
     for time in times {
         let last = out.last_mut().filter(|last| {

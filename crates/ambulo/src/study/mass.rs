@@ -15,6 +15,10 @@ use serde::{Deserialize, Serialize};
 
 /// Largest relative difference between masses of one person: clothes and shoes, a scale at home, a plate's calibration.
 const SAME_PERSON: f64 = 0.05;
+/// Body mass indices of people who walk [kg/m²]: the World Health Organization calls adults below 16 severely thin and
+/// above 40 obese of the highest class (unverified); children of five years have 13 to 18. A stature that is estimated
+/// from markers may be a tenth too small.
+const BODY_MASS_INDEX: [f64; 2] = [11.0, 50.0];
 /// The mass of a body that was made with a mass differs from it by roundings only, as a share.
 const SAME_MASS: f64 = 1e-6;
 /// Masses differ if their difference is more than this many standard errors.
@@ -88,6 +92,8 @@ pub enum MassWitness {
     Standing,
     /// Stated by the user or the files.
     Stated,
+    /// Stated by the files, where the user states a mass as well.
+    File,
     /// The model's own mass.
     Model,
 }
@@ -103,6 +109,7 @@ impl MassWitness {
             MassWitness::HalfStrides => "force plates, single stances",
             MassWitness::Standing => "force plates, standing",
             MassWitness::Stated => "stated",
+            MassWitness::File => "stated in the recording",
             MassWitness::Model => "the model's own",
         }
     }
@@ -135,6 +142,10 @@ impl MassEstimate {
         MassEstimate { by: MassWitness::Stated, kg, error_kg: STATED_ERROR * kg, times: 1, time_s: None }
     }
 
+    fn in_file(kg: f64) -> MassEstimate {
+        MassEstimate { by: MassWitness::File, ..MassEstimate::stated(kg) }
+    }
+
     /// Whether another mass can belong to the same person.
     fn agrees(&self, other: &MassEstimate) -> bool {
         let error_kg = hypot(self.error_kg, other.error_kg);
@@ -153,17 +164,24 @@ pub struct KnownMass {
     pub stated: Option<MassEstimate>,
     /// Mass from the plates in a standing trial.
     pub standing: Option<MassEstimate>,
+    /// Mass in the files, where the user states one as well.
+    pub file: Option<MassEstimate>,
 }
 
 impl KnownMass {
     pub(super) fn stated(kg: Option<f64>) -> KnownMass {
-        KnownMass { stated: kg.map(MassEstimate::stated), standing: None }
+        KnownMass { stated: kg.map(MassEstimate::stated), ..KnownMass::default() }
     }
 
     /// Known masses of a recording of markers: the user's statement has priority over the files.
     pub(super) fn of_markers(markers: &MarkerSource) -> KnownMass {
         let MarkerSource { trial, standing, body, .. } = markers;
         let files = standing.as_ref().and_then(|standing| standing.subject.mass_kg).or(trial.subject.mass_kg);
+        let by_user = match body {
+            MarkerBody::BuiltIn { mass_kg, .. } | MarkerBody::Model { mass_kg, .. } => *mass_kg,
+            MarkerBody::Calibrated(_) => None,
+        };
+        let file = files.filter(|_| by_user.is_some()).map(MassEstimate::in_file);
         let stated = match body {
             MarkerBody::BuiltIn { mass_kg, .. } => mass_kg.or(files),
             MarkerBody::Model { mass_kg, protocol, .. } => {
@@ -173,7 +191,7 @@ impl KnownMass {
             MarkerBody::Calibrated(subject) => subject.calibration.as_ref().map(|_| subject.model.mass()),
         };
         let standing = standing.as_ref().and_then(|standing| standing_estimate(&standing.recording.plates));
-        KnownMass { stated: stated.map(MassEstimate::stated), standing }
+        KnownMass { stated: stated.map(MassEstimate::stated), standing, file }
     }
 
     /// Whether the mass must be determined from the motion on the plates.
@@ -221,6 +239,7 @@ impl BodyMass {
         let mut sources: Vec<MassEstimate> = motion;
         sources.extend(known.standing.clone());
         sources.extend(known.stated.clone());
+        sources.extend(known.file.clone());
         sources.push(MassEstimate { by: MassWitness::Model, ..used });
         let [plates_kg, plates_error_kg] =
             [plates.as_ref().map(|plates| plates.kg), plates.as_ref().map(|plates| plates.error_kg)];
@@ -275,6 +294,44 @@ impl BodyMass {
     #[must_use]
     pub fn by(&self, source: MassWitness) -> Option<&MassEstimate> {
         self.sources.iter().find(|estimate| estimate.by == source)
+    }
+
+    /// The mass in the files, if it contradicts the stated one and nothing was weighed.
+    pub(super) fn otherwise_in_file(&self) -> Option<&MassEstimate> {
+        let (stated, file) = (self.by(MassWitness::Stated)?, self.by(MassWitness::File)?);
+        Some(file).filter(|file| self.state == MassState::Stated && !file.agrees(stated))
+    }
+
+    /// Factor by which the body mass index of a stature [m] is outside the range of people who walk; 1 on its edge.
+    pub(super) fn unusual_by(&self, height_m: f64) -> f64 {
+        let index = self.kg / (height_m * height_m);
+        (index / BODY_MASS_INDEX[1]).max(BODY_MASS_INDEX[0] / index)
+    }
+
+    /// What is unusual in a stature [m] and the mass, in a sentence.
+    pub(super) fn unusual(&self, height_m: f64) -> String {
+        let ([least, most], index) = (BODY_MASS_INDEX, self.kg / (height_m * height_m));
+        format!(
+            "{:.1} kg at {height_m:.2} m is a body mass index of {index:.0} kg/m²; people who walk have {least:.0} to \
+             {most:.0}: mass, stature or the unit of the force plates is wrong",
+            self.kg
+        )
+    }
+
+    /// Reports a statement that the files or the stature [m] contradict.
+    #[doc(hidden)] // for tests
+    pub fn report_statement(&self, height_m: f64, findings: &mut Findings) {
+        if let Some(file) = self.otherwise_in_file() {
+            let message = format!(
+                "the body mass is given as {:.1} kg, the recording states {:.1} kg, and no force plate decides; the \
+                 given mass was used",
+                self.kg, file.kg
+            );
+            findings.report(Code::MassStatedTwice, message);
+        }
+        if self.unusual_by(height_m) > 1.0 {
+            findings.report(Code::MassUnusual, self.unusual(height_m));
+        }
     }
 
     /// Reports sources that contradict the used mass.

@@ -27,6 +27,7 @@ use crate::ground::stances::{
 use crate::kinematics::Trajectory;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{Motion, interpolate};
+use crate::numerics::Order;
 
 /// The stances of a measured motion, and forces for those that were not measured.
 pub(super) struct StanceLoads {
@@ -79,7 +80,7 @@ pub(super) fn measured(
         .iter()
         .filter_map(|Missing { side, span }| Stance::within(*side, *span, source.clone(), trajectory.grid()));
     stances.extend(others);
-    stances.sort_by(|a, b| a.start_s.total_cmp(&b.start_s).then(a.side.cmp(&b.side)));
+    stances.sort_by_numbers(|stance| [stance.start_s, stance.side.rank()]);
     report(&stances, findings);
     let forces_of = ForceSource::Measured { filter: processing.force_filter, within: processing.instrumented };
     let analysis = analyse_measured(model, trajectory, forces, forces_of, findings, progress)?;

@@ -18,7 +18,7 @@
 
 mod b3d_source;
 mod error;
-mod events;
+pub(crate) mod events;
 mod fitted_range;
 pub(crate) mod force_columns;
 mod force_directions;

@@ -1,6 +1,7 @@
 //! From a source to a body whose coordinates are known over time, with the measured forces under its feet.
 
 use super::error::StudyError;
+use super::events::are_believed;
 use super::fitted_range::fitted_range;
 use super::force_table::{TableForces, Walker, is_loaded};
 use super::idle_forces::IdleForces;
@@ -92,6 +93,8 @@ pub(super) struct Followed {
     pub(super) body: BodyInMotion,
     /// Foot strikes and foot offs that the file lists.
     pub(super) listed: Vec<Event>,
+    /// Whether they agree with the force plates.
+    pub(super) is_list_believed: bool,
     /// Checksum of the name of the person in the file; names stay out of the results.
     pub(super) subject: Option<u64>,
 }
@@ -367,6 +370,7 @@ impl Statements {
             is_from_plates: matches!(self.forces, MeasuredForces::InRecording),
             known_mass: known,
             origin: Origin::Markers(Box::new(Followed {
+                is_list_believed: are_believed(&body, &markers.trial.events, findings),
                 body,
                 listed: markers.trial.events,
                 subject: markers.trial.subject.name.as_deref().map(|name| checksum(&plain(name))),

@@ -181,7 +181,9 @@ fn completed(predicted: PredictedAnalysis, observation: &Observation) -> (Predic
 /// An analysis with measured forces, with the events and the weighing that a recording of markers allows.
 pub(super) fn with_markers(analysis: Analysis, observation: &Observation) -> (Analysis, Vec<Event>) {
     let Observation { model, origin, .. } = observation;
-    let Some(Followed { body, listed, .. }) = origin.followed() else { return (analysis, Vec::new()) };
+    let Some(followed) = origin.followed() else { return (analysis, Vec::new()) };
+    let Followed { body, listed, is_list_believed, .. } = followed;
+    let listed: &[Event] = if *is_list_believed { listed } else { &[] };
     let (mut analysis, measured_events) = with_events_of_markers(analysis, body, listed);
     if let Some(window) = origin.instrumented() {
         analysis = weighed_within(analysis, model, window);

@@ -11,6 +11,7 @@
 
 use crate::kinematics::marker_fit::{MarkerFit, MarkerResidual};
 use crate::model::{Model, Region};
+use crate::numerics::Order;
 use std::collections::BTreeMap;
 
 /// Distances of the markers of a region from the body.
@@ -52,7 +53,7 @@ impl RegionFit {
         let all: f64 = own.iter().map(|residual| share(residual)).sum();
         let square: f64 = own.iter().map(|residual| share(residual) * residual.rms_m.powi(2)).sum();
         let mut markers: Vec<(String, f64)> = own.iter().map(|own| (own.name.clone(), own.rms_m)).collect();
-        markers.sort_by(|a, b| b.1.total_cmp(&a.1));
+        markers.sort_by_number(|(_, rms_m)| -rms_m);
         let rms_m = (square / all).sqrt();
         (all > 0.0).then(|| RegionFit { region, coordinates: coordinates(model, region), rms_m, markers })
     }

@@ -28,7 +28,7 @@ use crate::analysis::{
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Finding, Findings};
 use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
 use crate::ground::stances::{Stance, StanceSource};
@@ -256,8 +256,16 @@ impl Computed {
         let place_of = || PlatePlace::of(body, &analysis.trajectory, &person.soles, &analysis.ground);
         let place = measured.then(place_of).flatten();
         place.iter().for_each(|place| place.report(findings));
-        let by_gait = || tempo_of_gait(body, person, analysis, &falls, &strides, activity.kind, findings);
+        let still = |finding: &&Finding| finding.code == Code::PlatesStillChannel;
+        let still_channels = findings.as_slice().iter().filter(still).map(|finding| finding.message.clone()).collect();
+        // The clock of a computed motion is known.
+        let by_gait = || {
+            self.recorded.as_ref()?;
+            tempo_of_gait(body, person, analysis, &falls, &strides, activity.kind, findings)
+        };
         let evidence = QualityEvidence {
+            height_m: person.height_m,
+            still_channels,
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
             is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
@@ -305,6 +313,7 @@ fn body_mass(observation: &Observation, analysis: &Analysis, findings: &mut Find
     let weighed = observation.weighed_in_motion(&analysis.trajectory);
     let mass = BodyMass::of(observation.model.mass(), &observation.known_mass, weighed, analysis.mass.source);
     mass.report(findings);
+    mass.report_statement(observation.person.height_m, findings);
     mass
 }
 

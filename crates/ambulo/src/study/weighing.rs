@@ -22,6 +22,7 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind, ForceRecording, TimeGrid, interpolate};
+use crate::numerics::{Order, sort_numbers};
 use crate::spatial::Vec3;
 
 /// Error of a velocity of the mass centre where the recording is too short to measure it [m/s]; it counts as much as
@@ -201,7 +202,7 @@ impl<'a> Carried<'a> {
                 alone.filter(|span| span[1] - span[0] >= SHORTEST_CONTACT_S).filter_map(|span| self.valley(span)),
             );
         }
-        valleys.sort_by(f64::total_cmp);
+        sort_numbers(&mut valleys);
         let mut spans: Vec<[f64; 2]> = valleys.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         spans.retain(|span| self.inside_a_window(*span, windows));
         spans
@@ -311,7 +312,7 @@ impl<'a> Carried<'a> {
 
 fn times_of(events: &[Event], side: Side, kind: EventKind) -> Vec<f64> {
     let mut times: Vec<f64> = events.iter().filter(|e| e.side == side && e.kind == kind).map(|e| e.time_s).collect();
-    times.sort_by(f64::total_cmp);
+    sort_numbers(&mut times);
     times
 }
 
@@ -322,7 +323,7 @@ fn median_stride_s(events: &[Event]) -> Option<f64> {
             strides.extend(times_of(events, side, kind).windows(2).map(|pair| pair[1] - pair[0]));
         }
     }
-    strides.sort_by(f64::total_cmp);
+    sort_numbers(&mut strides);
     strides.get(strides.len() / 2).copied()
 }
 
@@ -403,7 +404,7 @@ fn without([from, to]: [f64; 2], removed: [f64; 2]) -> Vec<[f64; 2]> {
 /// The time that some times cover together [s].
 fn union_s(weighed: &[Weighed]) -> f64 {
     let mut spans: Vec<[f64; 2]> = weighed.iter().map(|w| w.span).collect();
-    spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    spans.sort_by_number(|span| span[0]);
     let (mut covered, mut end) = (0.0, f64::NEG_INFINITY);
     for [from, to] in spans {
         covered += (to - from.max(end)).max(0.0);

@@ -1,7 +1,7 @@
 //! Rotations from directions, and points in frames.
 
 use crate::numerics::elementary::{asin, atan2, sin_cos};
-use crate::numerics::median;
+use crate::numerics::{median, sort_numbers};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Smallest distance of two points that define a direction [m].
@@ -103,7 +103,7 @@ pub fn fit_pose(places: &[Vec3], points: &[Vec3]) -> Option<Pose> {
     let svd = spread.try_svd(true, true, f64::EPSILON, SVD_ROUNDS)?;
     let (u, v_t) = (svd.u?, svd.v_t?);
     let mut singular: Vec<f64> = svd.singular_values.iter().copied().collect();
-    singular.sort_by(f64::total_cmp);
+    sort_numbers(&mut singular);
     // Points on a line have only one singular value.
     if singular[1] < SHORTEST * SHORTEST {
         return None;

@@ -9,7 +9,7 @@ use crate::model::marker_set::Landmark;
 use crate::model::subject_shape::SolePlacement;
 use crate::model::{BySide, Side};
 use crate::numerics::elementary::{atan2, hypot};
-use crate::numerics::{degrees, median};
+use crate::numerics::{degrees, median, sort_numbers};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// In a walk a foot is flat while heel and toe markers are at most this high above their lowest positions [m].
@@ -248,7 +248,7 @@ impl Finder<'_> {
 
 /// The fifth percentile: a lowest value without outliers.
 fn fifth_percentile(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
+    sort_numbers(&mut values);
     values.get(values.len() / 20).copied().unwrap_or(f64::NAN)
 }
 

@@ -258,8 +258,7 @@ fn limit(memory: &Tracking, i: usize, t: f64) -> f64 {
     JUMP + (SKIN_SPEED * (t - memory.times[i]).abs()).min(most)
 }
 
-/// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before and nothing
-/// jumps.
+/// Decides which markers are used in this frame, and their paths. Returns the fit if all is as before.
 fn guarded(
     problem: &mut FitProblem<'_>,
     frames: &mut Frames,

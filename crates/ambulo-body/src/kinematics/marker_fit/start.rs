@@ -7,6 +7,7 @@
 //! Pinned by: tests/marker_fit.rs (recordings turned about the vertical, random postures)
 
 use super::problem::FitProblem;
+use crate::numerics::Order;
 use crate::spatial::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -76,13 +77,13 @@ fn placements(problem: &mut FitProblem<'_>, default: &[f64]) -> Vec<Vec<f64>> {
     };
     let starts = (0..TURNS.len().pow(angles.len() as u32)).map(turned);
     let mut found: Vec<(f64, Vec<f64>)> = starts.map(|x| (cost_where_it_fits(problem, &x), x)).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.sort_by_number(|found| found.0);
     found.truncate(ROTATIONS);
     for (cost, x) in &mut found {
         *cost = problem.fit(x).cost;
     }
     problem.bounds.held = held;
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.sort_by_number(|found| found.0);
     // Starts that lead to the same placement are one candidate. Three angles have two sets of values for an
     // orientation; the one nearer to the default posture is used.
     let far = |x: &[f64]| x.iter().zip(default).map(|(x, d)| (x - d) * (x - d)).sum::<f64>();

@@ -4,8 +4,8 @@ use super::{PlacedSensor, SensorAxes, SensorError, SensorHeading, SensorTrial};
 use crate::findings::{Code, Findings};
 use crate::model::{BodyId, Model, ModelPosture, Side};
 use crate::motion::{PosedSegment, SensorRecording, posed_segment};
-use crate::numerics::degrees;
 use crate::numerics::elementary::{asin, atan2};
+use crate::numerics::{Order, degrees};
 use crate::spatial::{Mat3, Vec3, rotation_about, rotation_vector};
 
 /// Ending of the names of sensors, after the name of the body.
@@ -227,7 +227,7 @@ fn mean_bending(model: &Model, trial: &SensorTrial<'_>, standing: &[Standing]) -
             Some(rotation_vector(&relative))
         };
         let mut turns: Vec<Vec3> = (0..trial.moving.times.len()).filter_map(turn).collect();
-        turns.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+        turns.sort_by_number(|vector| -vector.norm());
         turns.truncate(turns.len().div_ceil(10));
         if !turns.is_empty() {
             sum += turns.iter().sum::<Vec3>() / turns.len() as f64;

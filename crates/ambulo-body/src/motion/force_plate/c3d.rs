@@ -7,7 +7,7 @@ use super::{PlateRecording, PlateSettings, units};
 use crate::findings::{Code, Findings};
 use crate::motion::guessed_unit::metres_per_unit;
 use crate::motion::subject_parameters::subject_from_c3d;
-use crate::numerics::{Shown, median};
+use crate::numerics::{Shown, median, sort_numbers};
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
@@ -167,7 +167,7 @@ fn standing_weight(plates: &[&PlateSource]) -> Option<f64> {
     let samples = loads.iter().map(|(_, load)| load.len()).min()?;
     let total = |i: usize| loads.iter().map(|(plate, load)| load[i] * plate.units.force_n).sum::<f64>();
     let mut sorted: Vec<f64> = (0..samples).map(total).filter(|x| x.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
+    sort_numbers(&mut sorted);
     let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
     let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
     let is_steady = middle > 0.0 && high - low < STEADY * middle;
@@ -241,7 +241,7 @@ fn source(
 fn plausible_unit(platforms: &[Platform], stated_m: f64, findings: &mut Findings) -> f64 {
     let edge = |p: &Platform| (Vec3::from(p.corners[0]) - Vec3::from(p.corners[1])).norm();
     let mut edges: Vec<f64> = platforms.iter().map(edge).filter(|e| e.is_finite() && *e > 0.0).collect();
-    edges.sort_by(f64::total_cmp);
+    sort_numbers(&mut edges);
     let Some(middle) = edges.get(edges.len() / 2) else { return stated_m };
     let fits = |unit_m: f64| (EDGE_M[0]..=EDGE_M[1]).contains(&(middle * unit_m));
     if fits(stated_m) {

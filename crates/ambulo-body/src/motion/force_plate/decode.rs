@@ -3,11 +3,12 @@
 use super::baseline::{self, Baseline};
 use super::body_weight::stepped_weight;
 use super::clipping;
+use super::glitches;
 use super::kind::{Layout, PlateKind, Units};
 use super::surface::Surface;
 use super::{PlateRecording, PlateSettings};
 use crate::findings::{Code, Findings};
-use crate::numerics::median;
+use crate::numerics::{Order, counted, extremes, median, sort_numbers};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -42,6 +43,8 @@ const LARGE_BASELINE_N: f64 = 10.0;
 const SMALL_BASELINE_N: f64 = 0.5;
 /// A plate whose force varies by less than this was not stepped on [N].
 const STEP_N: f64 = 50.0;
+/// A jump of a force is larger than this share of the load of the plate.
+const RINGING: f64 = 0.2;
 /// The centre of pressure may lie this far beyond the edge [m]: errors of corners and of light loads.
 const EDGE_SLACK_M: f64 = 0.05;
 /// Smallest load for evaluating centres of pressure, as a share of the peak.
@@ -124,6 +127,11 @@ pub(super) fn decode(
     let origin = origin(source, layout.kind, findings);
     let up = upward(&surface, source.body);
     let mut reading = Reading { kind: layout.kind, origin, units: source.units, sign: 1.0 };
+    // A plate without a load has nothing but noise.
+    let load_n = glitches::range(&vertical(&channels, reading, &surface, up));
+    if let Some(load_n) = load_n.filter(|load_n| *load_n > STEP_N) {
+        bridge_excursions(source, (layout.kind, load_n), &mut channels, findings);
+    }
     reading.sign = load_sign(&vertical(&channels, reading, &surface, up));
     if reading.sign < 0.0 {
         let message = format!(
@@ -134,6 +142,7 @@ pub(super) fn decode(
         findings.report(Code::PlatesForceOnPlate, message);
     }
     let vertical = vertical(&channels, reading, &surface, up);
+    report_still(source, layout.kind, &channels, &vertical, findings);
     let baseline = baseline::find(&channels, &vertical, source.rate_hz, source.zero.clone());
     let clipped = clipped(source, baseline.as_ref(), layout, findings);
     let removed = baseline.filter(|_| settings.remove_baseline);
@@ -148,6 +157,64 @@ pub(super) fn decode(
     recording.baseline_n = removed.map(|b| b.vertical_n);
     recording.clipped = clipped;
     Ok(recording)
+}
+
+/// Replaces excursions that no load makes by straight lines, on a plate that carried a load [N].
+fn bridge_excursions(
+    source: &PlateSource,
+    (kind, load_n): (PlateKind, f64),
+    channels: &mut [Vec<f64>],
+    findings: &mut Findings,
+) {
+    // The free moment of type 1 follows from the centre of pressure, which jumps under a small load.
+    let is_direct = |i: usize| !kind.is_coordinate(i) && (kind != PlateKind::Point || i < 3);
+    for (i, channel) in channels.iter_mut().enumerate().filter(|(i, _)| is_direct(*i)) {
+        // A stiff plate rings after a hard strike, by less than this share of the load.
+        let is_force = i < 3 || kind.has_four_sensors();
+        let least = if is_force { RINGING * load_n / source.units.force_n } else { 0.0 };
+        let spans = glitches::excursions(channel, source.rate_hz, least);
+        spans.iter().for_each(|span| glitches::bridge(channel, span));
+        let (Some(first), Some(longest)) = (spans.first(), spans.iter().map(Range::len).max()) else { continue };
+        let message = format!(
+            "channel {} of {} jumps away and back, first at {:.3} s, {} in all, for {:.1} ms at most: no load does \
+             this; straight lines were drawn instead. hint: look for a loose cable",
+            i + 1,
+            source.name,
+            source.times[first.start],
+            counted(spans.len(), "time"),
+            1e3 * longest as f64 / source.rate_hz
+        );
+        findings.report(Code::PlatesExcursion, message);
+    }
+}
+
+/// Reports channels that have one value, though the plate was stepped on.
+fn report_still(
+    source: &PlateSource,
+    kind: PlateKind,
+    channels: &[Vec<f64>],
+    vertical: &[f64],
+    findings: &mut Findings,
+) {
+    let (low, high) = extremes(vertical);
+    if high - low < STEP_N {
+        return;
+    }
+    let still: Vec<String> = channels
+        .iter()
+        .enumerate()
+        .filter(|(i, channel)| !kind.is_coordinate(*i) && glitches::is_still(channel))
+        .map(|(i, _)| (i + 1).to_string())
+        .collect();
+    if !still.is_empty() {
+        let message = format!(
+            "{} carried a load of {high:.0} N, but channel {} has one value all the time: this part of the force is \
+             missing, and moments that need it are wrong. hint: check cables, amplifier and FORCE_PLATFORM:CHANNEL",
+            source.name,
+            still.join(", ")
+        );
+        findings.report(Code::PlatesStillChannel, message);
+    }
 }
 
 fn layout(source: &PlateSource) -> Result<Layout, String> {
@@ -252,7 +319,7 @@ fn vertical(channels: &[Vec<f64>], reading: Reading, surface: &Surface, up: Vec3
 /// then only a force that is too large for an offset counts.
 fn load_sign(vertical: &[f64]) -> f64 {
     let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
+    sort_numbers(&mut sorted);
     let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
     let (Some(low), Some(high), Some(middle)) = (at(0.005), at(0.995), at(0.5)) else { return 1.0 };
     let turned = if high - low < STEP_N { middle < -STEP_N } else { -low > high };
@@ -305,7 +372,7 @@ fn clipped(
         }
         clipped.extend(spans.into_iter().map(|s| [source.times[s.start], source.times[s.end - 1]]));
     }
-    clipped.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    clipped.sort_by_number(|span| span[0]);
     clipped
 }
 
@@ -391,7 +458,7 @@ fn spread_m(recording: &PlateRecording) -> f64 {
     let centers = solid_centers(recording);
     let along = |axis: usize| {
         let mut values: Vec<f64> = centers.iter().map(|c| c[axis]).collect();
-        values.sort_by(f64::total_cmp);
+        sort_numbers(&mut values);
         let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0);
         at(0.95) - at(0.05)
     };

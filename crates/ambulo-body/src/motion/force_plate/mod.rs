@@ -21,6 +21,7 @@ mod body_weight;
 mod c3d;
 mod clipping;
 mod decode;
+mod glitches;
 mod kind;
 mod reread;
 mod standing;

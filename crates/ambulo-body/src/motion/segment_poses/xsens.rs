@@ -18,6 +18,7 @@ use super::{FOOT_LENGTHS_M, PosedSegment, SegmentPoseError, SegmentPoses, axes, 
 use crate::findings::{Code, Findings};
 use crate::model::{BySide, Side};
 use crate::motion::gait_event::{Event, EventKind};
+use crate::numerics::{Order, sort_numbers};
 use crate::spatial::{Mat3, Pose, Vec3, rotation_about};
 use ambulo_formats::mvnx::{Mvnx, MvnxFrame, MvnxPose};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -84,7 +85,7 @@ pub fn events_from_mvnx(mvnx: &Mvnx) -> Vec<Event> {
             }
         }
     }
-    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    events.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     events
 }
 
@@ -226,7 +227,7 @@ fn contact_heights(mvnx: &Mvnx) -> Vec<f64> {
 /// The poses with the floor at height zero, where the contacts of the file show a level one.
 fn on_floor(mut poses: SegmentPoses, mvnx: &Mvnx, findings: &mut Findings) -> SegmentPoses {
     let mut heights = contact_heights(mvnx);
-    heights.sort_by(f64::total_cmp);
+    sort_numbers(&mut heights);
     let tenth = |tenths: usize| heights.get(tenths * heights.len() / 10).copied();
     let (Some(low), Some(floor), Some(high)) = (tenth(1), tenth(5), tenth(9)) else { return poses };
     if high - low > LEVEL_M {

@@ -9,6 +9,7 @@ use ambulo::motion::{
     Laboratory, MarkerRecording, PlateRecording, PlateSettings, RecordedMotion, SegmentPoses, SubjectParameters,
     laboratory, motion_from_c3d, plates_from_c3d, subject_from_c3d,
 };
+use ambulo::numerics::Order;
 use ambulo_formats::c3d::{C3d, Channel, Encoding, Processor, Rotation, Storage};
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -268,7 +269,7 @@ fn loaded(plate: &PlateRecording) -> Vec<[f64; 2]> {
 
 fn add_events(sheet: &mut Sheet, c3d: &C3d) {
     let mut events: Vec<_> = c3d.events.iter().collect();
-    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    events.sort_by_number(|event| event.time_s);
     let values: Vec<Value> = events
         .iter()
         .map(|event| json!({ "time_s": event.time_s, "label": event.label, "context": event.context }))

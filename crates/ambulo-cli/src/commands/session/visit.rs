@@ -3,6 +3,7 @@
 use crate::commands::trials::{Origin, files_in, listed, plan};
 use crate::record::hash_of_file;
 use ambulo::job::trials::{LIST, Plan, PlannedTrial, Wanted};
+use ambulo::numerics::sort_numbers;
 use anyhow::{Result, bail};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -143,7 +144,7 @@ pub(super) fn check_stated(folder: &Path, trials: &[&PlannedTrial]) -> Result<()
         ("age", "years", |trial| trial.stated.age_years),
     ] {
         let mut values: Vec<f64> = trials.iter().filter_map(|trial| of(trial)).collect();
-        values.sort_by(f64::total_cmp);
+        sort_numbers(&mut values);
         if let (Some(low), Some(high)) = (values.first(), values.last())
             && high > low
         {

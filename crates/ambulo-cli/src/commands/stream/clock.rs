@@ -4,6 +4,8 @@
 //! thousand periods are in milliseconds, and so on; times that always differ by another number of periods than one have
 //! another rate.
 
+use ambulo::numerics::sort_numbers;
+
 /// Units of times by their seconds, and how many of them a second has.
 const UNITS: [(&str, f64); 3] = [("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", 1e9)];
 /// Intervals that show a unit differ by less than this from one another.
@@ -91,7 +93,7 @@ impl Clock {
             return None;
         }
         self.is_judged = true;
-        self.intervals.sort_by(f64::total_cmp);
+        sort_numbers(&mut self.intervals);
         // Lost frames at least double some intervals; late ones lengthen one and shorten the next.
         let middle = self.intervals[count / 2];
         let is_usual = |periods: &&f64| **periods < LOSS * middle;

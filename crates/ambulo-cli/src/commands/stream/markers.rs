@@ -6,7 +6,7 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, LiveMarkerFit};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BodyId, Model};
-use ambulo::numerics::median;
+use ambulo::numerics::{median, sort_numbers};
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
 
@@ -218,7 +218,7 @@ impl MarkerFrames {
         let distance =
             |(place, body, local): (Vec3, BodyId, Vec3)| (bodies[body.index()].pose.place(local) - place).norm();
         let mut distances: Vec<f64> = self.visible().map(distance).filter(|distance| !distance.is_nan()).collect();
-        distances.sort_by(f64::total_cmp);
+        sort_numbers(&mut distances);
         distances.get(3 * distances.len() / 4).copied()
     }
 }

@@ -10,6 +10,7 @@ use crate::normative::{BAND_SAMPLES, NormativeBand, band};
 use crate::page::contract::{Fact, Glance, PageSource};
 use ambulo::analysis::{CYCLE_SAMPLES, StrideQuantity, symmetry_index};
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 
 /// Number of listed differences from normal.
 const DEVIATIONS: usize = 3;
@@ -32,7 +33,7 @@ pub(super) fn glance(results: &Results, size: &BodySize, quantities: &[ClinicalQ
     ];
     let mut deviations: Vec<Deviation> =
         quantities.iter().filter_map(|quantity| Deviation::of(results, size, quantity)).collect();
-    deviations.sort_by(|a, b| b.in_sd.total_cmp(&a.in_sd));
+    deviations.sort_by_number(|deviation| -deviation.in_sd);
     Glance {
         facts: facts.into_iter().flatten().collect(),
         norm: norm(size, &deviations),

@@ -1,6 +1,7 @@
 //! Records the states of the machines of a walk over time.
 
 use super::running_machine::RunningMachine;
+use crate::numerics::Order;
 
 /// A time in which a machine was in one state.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +69,7 @@ impl StateTrace {
         let open = self.open.iter().enumerate().map(|(machine, (state, since_s))| (machine, *state, [*since_s, end_s]));
         let mut all: Vec<_> = self.closed.iter().copied().chain(open).collect();
         all.retain(|(_, _, [start, end])| *start < end_s && *end > zero_s);
-        all.sort_by(|a, b| a.0.cmp(&b.0).then(a.2[0].total_cmp(&b.2[0])));
+        all.sort_by_numbers(|(machine, _, time_s)| [*machine as f64, time_s[0]]);
         let period = |(machine, state, [start, end]): (usize, usize, [f64; 2])| StatePeriod {
             machine: running.names()[machine].clone(),
             state: running.name_of(machine, state).to_owned(),

@@ -389,12 +389,12 @@ pub fn planned(walk: Walk, cycles: f64, longest_s: f64, findings: &mut Findings)
 }
 
 /// Cycles until machines repeat what they do, cycles in which this is judged, and instants of each.
-const JUDGED: (usize, usize, usize) = (4, 20, 500);
+const JUDGED: (usize, usize, usize) = (1, 20, 500);
 /// Negligible difference of an angle between two cycles [rad]: a transition may be detected one instant later.
 const SAME_ANGLE: f64 = 0.03;
 
-/// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first four
-/// of 24 cycles.
+/// Whether the machines of a walk that move joints do the same in every cycle of its first pace, after the first cycle
+/// of 21. A change in later cycles would be missing in the cycle that is solved and repeated.
 #[must_use]
 pub fn repeats(walk: &Walk) -> bool {
     if !walk.gait().machines.iter().any(|machine| machine.drives.moves_a_joint()) {
@@ -404,7 +404,7 @@ pub fn repeats(walk: &Walk) -> bool {
     let mut machine = WalkMachine::new(walk);
     let mut angles = Vec::new();
     for step in 0..(settling + judged) * instants {
-        let time_s = walk.cycle_s() * step as f64 / instants as f64;
+        let time_s = walk.machines_begin_s() + walk.cycle_s() * step as f64 / instants as f64;
         let mut at = machine.angles(time_s);
         at.extend(machine.coordinates().map(|(_, jet)| jet.value));
         angles.push(at);

@@ -3,6 +3,7 @@
 use crate::ground::GroundForces;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
+use crate::numerics::sort_numbers;
 use crate::spatial::Vec3;
 
 /// A foot that carries more than this share of body weight moves with the ground.
@@ -36,7 +37,7 @@ pub(in crate::analysis) fn over_ground(
     let mut median = Vec3::zeros();
     for k in 0..3 {
         let mut along: Vec<f64> = feet.iter().map(|v| v[k]).collect();
-        along.sort_by(f64::total_cmp);
+        sort_numbers(&mut along);
         median[k] = along[along.len() / 2];
     }
     let relative = center / frames - median;

@@ -2,6 +2,7 @@
 
 use crate::findings::word;
 use crate::model::Side;
+use crate::numerics::Order;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
@@ -177,7 +178,7 @@ impl Verdict {
     #[must_use]
     pub fn unlike_people(&self) -> Vec<&Likeness> {
         let mut list: Vec<&Likeness> = self.likeness.iter().filter(|likeness| likeness.share > 1.0).collect();
-        list.sort_by(|a, b| b.share.total_cmp(&a.share));
+        list.sort_by_number(|likeness| -likeness.share);
         list
     }
 

@@ -23,7 +23,7 @@ use crate::kinematics::calibration::hip_centres;
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, MarkerSet};
 use crate::motion::MarkerRecording;
-use crate::numerics::{median, rms};
+use crate::numerics::{Order, median, rms};
 
 /// Difference of the limbs, root mean square in spreads, that shows another person.
 pub(crate) const OTHER: f64 = 1.9;
@@ -109,7 +109,7 @@ fn differences(moving: &[Limb], standing: &[Limb]) -> Vec<(f64, [usize; 2])> {
     let pairs = moving.iter().enumerate().filter_map(|(own, limb)| Some((own, same(limb)?)));
     let mut found: Vec<(f64, [usize; 2])> =
         pairs.map(|(own, other)| (moving[own].difference(&standing[other]).abs(), [own, other])).collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.sort_by_number(|found| -found.0);
     if found.len() < FEWEST { Vec::new() } else { found }
 }
 

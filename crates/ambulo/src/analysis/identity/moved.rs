@@ -20,7 +20,7 @@ use crate::kinematics::marker_fit::{FitSettings, OutlierDetection, fit_markers};
 use crate::kinematics::{Posture, body_motion};
 use crate::model::{CoordinateId, Marker, Model};
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 
@@ -134,7 +134,7 @@ impl Fitter<'_> {
             .filter(|(name, own)| own.norm() > SUSPICIOUS_M && !self.left_out.contains(name))
             .map(|(name, own)| (name, *own))
             .collect();
-        suspicious.sort_by(|a, b| b.1.norm().total_cmp(&a.1.norm()));
+        suspicious.sort_by_number(|(_, moved)| -moved.norm());
         let moved = suspicious.into_iter().take(MOST_ASKED).filter_map(|(name, own)| {
             let away = *self.distances(Some(name))?.get(name)?;
             let contradicted = own.dot(&away).max(0.0).sqrt();

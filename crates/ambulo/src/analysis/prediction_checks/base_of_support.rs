@@ -1,5 +1,6 @@
 //! The base of support in the horizontal plane, and the distance of a point outside it.
 
+use crate::numerics::Order;
 use crate::numerics::elementary::hypot;
 use crate::spatial::Vec3;
 
@@ -56,7 +57,7 @@ fn from_edge(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> [f64; 2] {
 
 /// Corners of the convex hull, counterclockwise (Andrew 1979, monotone chains; unverified).
 fn hull(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    places.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    places.sort_by_numbers(|place| [place[0], place[1]]);
     places.dedup();
     if places.len() < 3 {
         return places;

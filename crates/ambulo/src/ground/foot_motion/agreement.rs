@@ -3,7 +3,7 @@
 use super::EventMethod;
 use crate::model::Side;
 use crate::motion::{Event, EventKind};
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 
 /// Two methods detected the same event if they differ by less than this [s].
 const SAME_EVENT_S: f64 = 0.15;
@@ -29,14 +29,14 @@ pub(super) fn agreed(by_method: &[(&str, Vec<Event>)]) -> Vec<Event> {
                 same.map(|e| (e.time_s, m)).collect::<Vec<_>>()
             };
             let mut seen: Vec<(f64, usize)> = by_method.iter().enumerate().flat_map(of).collect();
-            seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+            seen.sort_by_number(|found| found.0);
             candidates.extend(groups(&seen).into_iter().filter_map(|group| consensus(group, side, kind)));
         }
         candidates.retain(|v| v.methods >= needed);
-        candidates.sort_by(|a, b| a.event.time_s.total_cmp(&b.event.time_s));
+        candidates.sort_by_number(|candidate| candidate.event.time_s);
         out.extend(alternating(candidates));
     }
-    out.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    out.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     out
 }
 

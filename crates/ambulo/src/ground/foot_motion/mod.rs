@@ -27,6 +27,7 @@ use super::phases::{Contact, contacts_from_events};
 use crate::findings::{Code, Findings};
 use crate::model::Side;
 use crate::motion::{Event, Landmarks, MarkerRecording};
+use crate::numerics::Order;
 use agreement::agreed;
 use methods::events_of;
 use signals::{Foot, floor_speed, foot, mean_path, mean_rate};
@@ -117,7 +118,7 @@ pub(crate) fn foot_motion_of_landmarks(
             events.extend(events_of(method, markers, foot, pelvis.as_deref(), floor, walking));
         }
         if !events.is_empty() {
-            events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+            events.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
             by_method.push((method.name(), events));
         }
     }

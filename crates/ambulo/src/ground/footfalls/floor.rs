@@ -7,7 +7,7 @@
 use super::Footfall;
 use super::signals::{FootPath, Signals};
 use crate::model::Side;
-use crate::numerics::{mean, median};
+use crate::numerics::{mean, median, sort_numbers};
 use std::ops::Range;
 
 /// Heights within this range are one floor [m]: estimated soles have errors of 1 to 3 cm, stairs are 15 to 20 cm high.
@@ -21,7 +21,7 @@ pub(super) fn height(signals: &Signals, foot: &FootPath, run: &Range<usize>) -> 
 /// Gives stances of similar height the same floor.
 pub(super) fn share_floors(falls: &mut [Footfall]) {
     let mut heights: Vec<f64> = falls.iter().map(|fall| fall.floor_height_m).collect();
-    heights.sort_by(f64::total_cmp);
+    sort_numbers(&mut heights);
     let mut rest = heights.as_slice();
     let mut floors = Vec::new();
     while let Some(&lowest) = rest.first() {

@@ -65,6 +65,7 @@ use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind};
+use crate::numerics::Order;
 use crate::spatial::Vec3;
 use belt::Belt;
 #[doc(hidden)]
@@ -120,7 +121,7 @@ impl Footfalls {
                 out.extend(time.map(|time_s| Event { side: fall.side, kind, time_s }));
             }
         }
-        out.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+        out.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
         out
     }
 }
@@ -164,7 +165,7 @@ pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Find
     }
     floor::share_floors(&mut falls);
     let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
-    falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
+    falls.sort_by_numbers(|fall| [start(fall), fall.side.rank()]);
     if falls.is_empty() {
         let why = if signals.feet.is_empty() {
             "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the \

@@ -27,6 +27,7 @@ use crate::ground::phases::contacts_from_force;
 use crate::model::Side;
 use crate::motion::PlateRecording;
 use crate::motion::force_plate::CORNER_ORDERS;
+use crate::numerics::Order;
 
 /// Deviations of the right order: distance [m], correlation along the foot and across it.
 const DEVIATIONS: [f64; 3] = [0.03, 0.3, 0.5];
@@ -166,7 +167,7 @@ fn better_order(plates: &[&Loaded]) -> Option<(usize, bool)> {
     let cost = |order: usize| plates.iter().map(|plate| plate.fits[order].cost()).sum::<f64>();
     let away_m = |order: usize| plates.iter().map(|plate| plate.fits[order].distance_m()).sum::<f64>();
     let mut right: Vec<usize> = (0..CORNER_ORDERS.len()).filter(is_right).collect();
-    right.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+    right.sort_by_number(|order| cost(*order));
     let best = *right.first().filter(|_| !plates.is_empty())?;
     let nearer_m = (away_m(0) - away_m(best)) / plates.len() as f64;
     let is_moved = nearer_m > NEARER_M || runs_back(0) && runs_forth(best) || turns_over(best) && nearer_m > -SAME_M;

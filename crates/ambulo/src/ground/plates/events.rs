@@ -4,6 +4,7 @@ use super::{ContactQuality, FeetOnPlates, PlateContact};
 use crate::ground::foot_motion::FootMotion;
 use crate::model::Side;
 use crate::motion::{Event, EventKind};
+use crate::numerics::Order;
 
 /// Force and motion show the same event if they differ by less than this [s].
 const SAME_EVENT_S: f64 = 0.15;
@@ -46,7 +47,7 @@ impl FeetOnPlates {
             c.side == Some(side) && matches!(c.quality, ContactQuality::Clean | ContactQuality::Shared)
         };
         let mut spans: Vec<[f64; 2]> = self.contacts.iter().filter(whole).map(|c| [c.start_s, c.end_s]).collect();
-        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        spans.sort_by_number(|span| span[0]);
         let mut merged: Vec<[f64; 2]> = Vec::new();
         for span in spans {
             match merged.last_mut() {
@@ -59,6 +60,6 @@ impl FeetOnPlates {
 }
 
 fn sorted(mut events: Vec<Event>) -> Vec<Event> {
-    events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.side.cmp(&b.side)));
+    events.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
     events
 }

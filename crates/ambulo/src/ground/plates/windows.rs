@@ -3,6 +3,7 @@
 use super::feet::FeetInMotion;
 use super::{ContactQuality, PlateContact};
 use crate::model::Side;
+use crate::numerics::Order;
 
 /// Gaps of up to this length in the load of all plates are flight [s].
 const FLIGHT_S: f64 = 0.3;
@@ -28,14 +29,14 @@ pub(super) fn windows(feet: &FeetInMotion<'_>, found: &[PlateContact]) -> Vec<[f
         free = free.iter().flat_map(|span| without(*span, bar)).collect();
     }
     free.retain(|s| s[1] - s[0] >= SHORTEST_WINDOW_S);
-    free.sort_by(|a, b| (b[1] - b[0]).total_cmp(&(a[1] - a[0])).then(a[0].total_cmp(&b[0])));
+    free.sort_by_numbers(|span| [span[0] - span[1], span[0]]);
     free
 }
 
 /// The times during which plates were loaded, flights between them included.
 fn loaded_times(found: &[PlateContact]) -> Vec<[f64; 2]> {
     let mut spans: Vec<[f64; 2]> = found.iter().map(|c| [c.start_s, c.end_s]).collect();
-    spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    spans.sort_by_number(|span| span[0]);
     let mut merged: Vec<[f64; 2]> = Vec::new();
     for span in spans {
         match merged.last_mut() {

@@ -8,7 +8,7 @@ use super::strike_descent::{CenterVelocity, Strike, descents};
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::model::Side;
 use crate::motion::TimeGrid;
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 use crate::spatial::Vec3;
 
 /// Duration of a stance where the recording has no complete one, in √(L/g): 62 % of a cycle of 3.5, at usual walking
@@ -142,7 +142,7 @@ pub(super) fn stances(
             spans.iter().filter(|(o, ..)| o.side != fall.side).map(|(_, a, b)| [*a, *b]).collect();
         out.push(stance(fall, [*start_s, *end_s], &others, grid, geometry, body_scale, curves));
     }
-    out.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
+    out.sort_by_number(|stance| stance.start_s);
     let strikes: Vec<Strike> =
         out.iter().map(|stance| Strike { time_s: Some(stance.start_s), height_m: stance.height_m }).collect();
     let center = CenterVelocity { grid, velocity: &geometry.velocity };

@@ -9,6 +9,7 @@
 use super::expected::Component;
 use super::fitted_parameters::FittedParameters;
 use super::stances::{BodyScale, Stance};
+use crate::numerics::Order;
 
 /// β: root of the mean over one interval of Σ B², 151/315.
 pub const UNIT: f64 = 0.692_358_7;
@@ -80,7 +81,7 @@ impl Unknowns {
                 knots.extend((0..curve.numbers.len()).map(|k| (time(k), s, c, k)));
             }
         }
-        knots.sort_by(|a, b| a.0.total_cmp(&b.0));
+        knots.sort_by_number(|knot| knot.0);
         for (number, (_, s, c, k)) in knots.iter().enumerate() {
             curves[*s][*c].numbers[*k] = number;
         }

@@ -16,7 +16,7 @@
 use crate::ground::footfalls::{Footfall, Footfalls};
 use crate::model::Side;
 use crate::motion::TimeGrid;
-use crate::numerics::median;
+use crate::numerics::{Order, median};
 
 /// Earliest strike of the other foot in walking, as a share of a stance.
 const TAKES_OVER_AFTER: f64 = 0.5;
@@ -60,7 +60,7 @@ impl StepTiming {
             footfalls.falls.push(Footfall { strike_s: Some(strike), off_s: Some(strike + stance_s), ..last });
         }
         let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
-        footfalls.falls.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.side.cmp(&b.side)));
+        footfalls.falls.sort_by_numbers(|fall| [start(fall), fall.side.rank()]);
     }
 }
 

@@ -27,6 +27,8 @@ pub enum Measure {
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
+    /// Number of force plates with channels that never move.
+    StillChannels,
     /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
     ForceDirections,
     /// Distance of the markers or joints of pelvis and legs from the fitted body.
@@ -43,6 +45,8 @@ pub enum Measure {
     NotMeasured,
     /// Difference of the body mass from that on the plates.
     Mass,
+    /// Body mass index, relative to the range of people who walk.
+    BodyMassIndex,
     /// Share of the frames with an unknown posture.
     Gaps,
     /// Speed of loaded soles along the ground.
@@ -86,7 +90,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 31] = [
+    pub const ALL: [Measure; 33] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -95,6 +99,7 @@ impl Measure {
         Measure::UnmeasuredLeg,
         Measure::UnassignedForces,
         Measure::SilentPlates,
+        Measure::StillChannels,
         Measure::ForceDirections,
         Measure::MarkerFit,
         Measure::TrunkFit,
@@ -103,6 +108,7 @@ impl Measure {
         Measure::WhoseMarkers,
         Measure::NotMeasured,
         Measure::Mass,
+        Measure::BodyMassIndex,
         Measure::Gaps,
         Measure::Sliding,
         Measure::CenterOfPressure,
@@ -132,6 +138,7 @@ impl Measure {
             Measure::UncheckedForces | Measure::UnmeasuredLeg => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
+            Measure::StillChannels => AtMost(0.0, 3.0),
             Measure::ForceDirections => AtLeast(0.6, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::TrunkFit => AtMost(0.04, 1.0),
@@ -140,6 +147,7 @@ impl Measure {
             Measure::WhoseMarkers => AtMost(0.0, 3.0),
             Measure::NotMeasured => AtMost(0.0, 4.0),
             Measure::Mass => AtMost(0.05, 0.15),
+            Measure::BodyMassIndex => AtMost(1.0, 1.5),
             Measure::Gaps => AtMost(0.1, 0.3),
             Measure::Sliding => AtMost(0.05, 0.15),
             Measure::CenterOfPressure => AtMost(0.03, 0.1),
@@ -178,6 +186,7 @@ impl Measure {
             Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
+            Measure::StillChannels => "number of loaded force plates with a channel that has one value all the time",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
@@ -191,9 +200,8 @@ impl Measure {
             Measure::NotMeasured => {
                 "number of coordinates of pelvis and legs that nothing recorded determines, so that they have one value"
             }
-            Measure::Mass => {
-                "difference of the body mass from that on the force plates, less the error of weighing, as a share"
-            }
+            Measure::Mass => "difference of the body mass from that on the force plates or in the file, as a share",
+            Measure::BodyMassIndex => "body mass index over 50 kg/m², or 11 kg/m² over it",
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
             Measure::Sliding => "speed along the ground of soles that carry half the body weight, lower quartile",
             Measure::CenterOfPressure => {
@@ -249,11 +257,13 @@ impl Measure {
             | Measure::UnmeasuredLeg
             | Measure::UnassignedForces
             | Measure::SilentPlates
+            | Measure::StillChannels
             | Measure::ForceDirections
             | Measure::ScaleFactors
             | Measure::WhoseMarkers
             | Measure::NotMeasured
             | Measure::Mass
+            | Measure::BodyMassIndex
             | Measure::Gaps
             | Measure::Jumps
             | Measure::FrozenPoints

@@ -147,6 +147,10 @@ pub(super) struct QualityEvidence<'a> {
     /// Whether the place of the person follows from the feet on the ground.
     pub(super) place_is_derived: bool,
     pub(super) mass: &'a BodyMass,
+    /// Stature [m].
+    pub(super) height_m: f64,
+    /// Messages about force plates with channels that never move.
+    pub(super) still_channels: Vec<String>,
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
@@ -169,6 +173,7 @@ impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.trunk_fit(), self.scaling(), self.scale_factors(), self.mass()];
+        let of_size = [self.body_mass_index(), self.still_channels()];
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff(), self.bandwidth()];
         let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height(), self.plate_place()];
@@ -183,6 +188,7 @@ impl QualityEvidence<'_> {
                 .chain(of_recording)
                 .chain(of_keypoints)
                 .chain(of_body)
+                .chain(of_size)
                 .chain(of_person)
                 .chain(of_feet)
                 .chain(of_motion)
@@ -355,6 +361,17 @@ impl QualityEvidence<'_> {
     }
 
     fn mass(&self) -> Option<QualityReason> {
+        if let Some(file) = self.mass.otherwise_in_file() {
+            return Measure::Mass.reason(self.mass.disagreement(file), |limit| {
+                format!(
+                    "the recording states {:.1} kg, the body has the given {:.1} kg, and no force plate decides (at \
+                     most {} apart)",
+                    file.kg,
+                    self.mass.kg,
+                    percent(limit)
+                )
+            });
+        }
         let weighing = self.mass.on_plates()?;
         Measure::Mass.reason(self.mass.disagreement(&weighing), |limit| {
             format!(
@@ -366,6 +383,18 @@ impl QualityEvidence<'_> {
                 weighing.error_kg
             )
         })
+    }
+
+    fn body_mass_index(&self) -> Option<QualityReason> {
+        let value = self.mass.unusual_by(self.height_m);
+        Measure::BodyMassIndex.reason(value, |_| self.mass.unusual(self.height_m))
+    }
+
+    /// A part of the measured force is missing.
+    fn still_channels(&self) -> Option<QualityReason> {
+        let still = self.still_channels.iter().filter(|_| is_used(&self.force_origin));
+        let messages: Vec<&str> = still.map(String::as_str).collect();
+        Measure::StillChannels.reason(messages.len() as f64, |_| messages.join("; "))
     }
 
     fn gaps(&self) -> Option<QualityReason> {
@@ -517,12 +546,13 @@ impl QualityEvidence<'_> {
             format!("the motion is filtered at {cutoff_hz} Hz (at least {limit} Hz): the movement itself is removed")
         });
         let high = || {
-            Measure::HighCutoff.reason(cutoff_hz / rate_hz, |limit| {
+            // Times with few digits give a rate of 29.99999 Hz.
+            let share = (1e4 * cutoff_hz / rate_hz).round() / 1e4;
+            Measure::HighCutoff.reason(share, |limit| {
                 format!(
-                    "the motion is filtered at {cutoff_hz} Hz (at most {} Hz with {:.0} frames per second): noise \
-                     remains in the forces",
-                    limit * rate_hz,
-                    rate_hz
+                    "the motion is filtered at {cutoff_hz} Hz (at most {:.1} Hz with {rate_hz:.0} frames per second): \
+                     noise remains in the forces",
+                    limit * rate_hz
                 )
             })
         };

@@ -5,6 +5,7 @@ use crate::page::contract::{Judged, Table};
 use crate::page::session::cells::{Column, listed, number, text};
 use crate::page::session::plain_fact::{none_allowed, plain};
 use crate::page::session::results::Results;
+use ambulo::numerics::Order;
 use ambulo_results::{MuscleOrigin, MuscleSummary, ReserveSummary};
 
 /// Largest reserve of a joint in relation to its largest moment: "peak reserve actuator torques should typically be
@@ -84,7 +85,7 @@ pub(in crate::page::session) fn reserve_table(results: &Results) -> Option<Table
     let note = "Moments that the muscles could not supply and that were added in each coordinate. At the pelvis they \
         are the residual; coordinates without muscles have their whole moment from reserves.";
     let mut rows = reserves(results);
-    rows.sort_by(|a, b| b.size.total_cmp(&a.size));
+    rows.sort_by_number(|row| -row.size);
     listed(["reserves", "Reserves", note], &rows, &COLUMNS)
 }
 

@@ -7,6 +7,7 @@ use crate::page::session::results::Results;
 use crate::page::session::words;
 use ambulo::analysis::{EventAgreement, FootAgreement, ForceAgreement, MomentAgreement};
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 use ambulo::simulation::consistent_walk::Magnitude;
 use ambulo_results::{ConsistencySummary, MarkerErrorSummary, PlateContactSummary, SegmentSummary, Summary};
 
@@ -150,7 +151,7 @@ fn markers(results: &Results) -> Vec<MarkerRow> {
     let errors = markers().flat_map(|markers| &markers.errors);
     let mut rows: Vec<MarkerRow> = errors.map(|error| (error.clone(), missing(error), region(&error.name))).collect();
     let size = |row: &MarkerRow| row.0.rms_mm.unwrap_or(f64::INFINITY);
-    rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    rows.sort_by_number(|row| -size(row));
     rows
 }
 

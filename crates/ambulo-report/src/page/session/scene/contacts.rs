@@ -7,6 +7,7 @@ use crate::page::session::quality::over_time;
 use crate::page::session::sides;
 use crate::stage::csv_rows::Row;
 use ambulo::model::Side;
+use ambulo::numerics::Order;
 use ambulo_results::{CONTACTS, Folder, ResultsError};
 use std::collections::BTreeMap;
 
@@ -32,7 +33,7 @@ pub(super) fn group(
 ) -> Result<Option<Group>, ResultsError> {
     let Some(text) = folder.text(CONTACTS)? else { return Ok(None) };
     let mut pairs: Vec<(Pair, Sums)> = sums(folder, &text, instants)?.into_iter().collect();
-    pairs.sort_by(|a, b| b.1.largest().total_cmp(&a.1.largest()));
+    pairs.sort_by_number(|pair| -pair.1.largest());
     if pairs.len() > MOST_PAIRS {
         let all = pairs.len();
         missing.push(format!(

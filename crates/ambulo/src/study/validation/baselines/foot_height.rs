@@ -14,6 +14,7 @@
 use super::{AppliedForce, BaselineInput, FootPoints, at_height};
 use crate::model::{BySide, Side};
 use crate::numerics::elementary::exp;
+use crate::numerics::sort_numbers;
 use crate::spatial::Vec3;
 
 /// λ [m].
@@ -47,7 +48,7 @@ pub(super) fn forces(input: &BaselineInput<'_>, places: &BySide<Vec<FootPoints>>
 
 /// A percentile with linear interpolation between the values; 0 without values.
 fn percentile(mut values: Vec<f64>, share: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
+    sort_numbers(&mut values);
     let place = share * values.len().saturating_sub(1) as f64;
     let (below, part) = (place.floor() as usize, place.fract());
     let above = (below + 1).min(values.len().saturating_sub(1));
