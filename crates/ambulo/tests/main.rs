@@ -59,6 +59,7 @@ mod footfalls_skeletons;
 mod footfalls_synthetic;
 mod force_filter;
 mod force_plate;
+mod force_tables;
 mod full_body;
 mod functions;
 mod gait_accuracy;

@@ -335,7 +335,7 @@ codes! {
         "The body did not follow the markers at first; another start was used, or all frames were fitted together."
         "Check the distances of the markers; correct markers that jump or have wrong labels.";
     MarkersSwap "markers.swap" Warning
-        "Two markers had exchanged labels at some times and were exchanged back."
+        "Two markers had exchanged labels at some times, or in a whole recording, and were exchanged back."
         "Correct the labels.";
     MarkersMisplaced "markers.misplaced" Warning
         "A marker is far from its position on the body throughout; its weight was reduced."
@@ -489,11 +489,13 @@ codes! {
         "A force plate was left out."
         "The message states what is missing or wrong in the file.";
     PlatesExcursion "plates.excursion" Warning
-        "A channel of a force plate jumps away from its course and back within 50 ms, which no load does. Straight \
-         lines were drawn instead."
+        "A channel of a force plate or a force of a table jumps away from its course and back within 50 ms, which no \
+         load does. Straight lines were drawn instead."
         "Look for a loose cable; the force there is an interpolation.";
     PlatesStillChannel "plates.still_channel" Warning
-        "A channel of a loaded force plate has one value all the time, so a part of the force is missing."
+        "A channel of a loaded force plate, or a component of a force of a table, has one value all the time, so a \
+         part \
+         of the force is missing."
         "Check cables, amplifier and the order of the channels in the file.";
     PlatesOriginTurned "plates.origin_turned" Note
         "ORIGIN of a plate has the opposite sign, a usual error of programs, and was reversed."
@@ -547,7 +549,9 @@ codes! {
          it: it is mirrored or turned."
         "State the correction of the plate, or correct the sign of the channel or column.";
     PlatesMisplaced "plates.misplaced" Warning
-        "The centres of pressure of both feet lie to the same side of them: plates or markers are moved sideways."
+        "The centres of pressure lie to one side of both feet, or not where the motion needs them along the foot: \
+         plates or \
+         markers are not where the file states, or moments of a plate are wrong."
         "Correct FORCE_PLATFORM:CORNERS in the file, or the places of the force table.";
     PlatesCrossTalk "plates.cross_talk" Warning
         "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."

@@ -1,5 +1,7 @@
 //! Forces from force plates or other sensors: force, point of application and moment about it.
+//! Pinned by: tests/force_tables.rs
 
+use super::glitches::{self, RINGING, STEP_N};
 use super::import::rows_with_clock;
 use super::recording::MotionError;
 use crate::findings::{Code, Findings};
@@ -37,6 +39,60 @@ impl ForceRecording {
         }
         if self.point_frame.is_none() {
             self.point.iter_mut().for_each(|p| *p = rotation * *p);
+        }
+    }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl ForceRecording {
+    /// Range of the force, without its rarest values.
+    fn load(&self) -> Option<f64> {
+        glitches::range(&self.force.iter().map(|force| force.norm()).collect::<Vec<_>>())
+    }
+
+    /// A component of the force.
+    fn component(&self, axis: usize) -> Vec<f64> {
+        self.force.iter().map(|force| force[axis]).collect()
+    }
+
+    /// Replaces excursions of the force that no load makes by straight lines, and the point and the moment at the same
+    /// times, which were computed from the force.
+    fn bridge_excursions(&mut self, findings: &mut Findings) {
+        let Some(load) = self.load().filter(|load| *load > STEP_N) else { return };
+        let [Some(first), Some(last)] = [self.times.first(), self.times.last()] else { return };
+        let rate_hz = (self.times.len() - 1) as f64 / (last - first);
+        for (axis, name) in AXES.into_iter().enumerate() {
+            let spans = glitches::excursions(&self.component(axis), rate_hz, RINGING * load);
+            for span in &spans {
+                for values in [&mut self.force, &mut self.point, &mut self.moment] {
+                    glitches::bridge(values, span);
+                }
+            }
+            let what = format!("the force `{}` along {name}", self.name);
+            glitches::report(&what, &spans, (&self.times, rate_hz), findings);
+        }
+    }
+}
+
+/// Reports components of loaded forces that have one value at all times. A table of a plane has no force across it, so
+/// that a component of zeros must be there in another load of the table.
+fn report_still(recordings: &[ForceRecording], findings: &mut Findings) {
+    let is_still = |recording: &ForceRecording, axis: usize| glitches::is_still(&recording.component(axis));
+    for (axis, name) in AXES.into_iter().enumerate() {
+        let is_moving = recordings.iter().any(|recording| !is_still(recording, axis));
+        let is_set = |recording: &ForceRecording| recording.force.first().is_some_and(|force| force[axis].abs() > 0.0);
+        for recording in recordings.iter().filter(|recording| is_still(recording, axis)) {
+            let Some(load_n) = recording.load().filter(|load| *load > STEP_N) else { continue };
+            if is_moving || is_set(recording) {
+                let message = format!(
+                    "the force `{}` carries a load of {load_n:.0} N, but has one value along {name} all the time: this \
+                     part of the force is missing, and moments that need it are wrong. hint: check the columns of the \
+                     table, and the cables and the amplifier of the plate",
+                    recording.name
+                );
+                findings.report(Code::PlatesStillChannel, message);
+            }
         }
     }
 }
@@ -80,6 +136,8 @@ pub fn force_recordings(
         report_millimetres(&recording, findings);
         recordings.push(recording);
     }
+    report_still(&recordings, findings);
+    recordings.iter_mut().for_each(|recording| recording.bridge_excursions(findings));
     Ok(recordings)
 }
 

@@ -14,6 +14,7 @@ mod force_recording;
 mod gait_event;
 #[doc(hidden)]
 pub mod gaps;
+mod glitches;
 mod guessed_unit;
 mod held;
 mod import;

@@ -1,14 +1,14 @@
 //! Converts the channels of one plate to forces in the axes of the laboratory.
 
+use super::super::glitches::{self, RINGING, STEP_N};
 use super::baseline::{self, Baseline};
 use super::body_weight::stepped_weight;
 use super::clipping;
-use super::glitches;
 use super::kind::{Layout, PlateKind, Units};
 use super::surface::Surface;
 use super::{PlateRecording, PlateSettings};
 use crate::findings::{Code, Findings};
-use crate::numerics::{Order, counted, extremes, median, sort_numbers};
+use crate::numerics::{Order, extremes, median, sort_numbers};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -41,10 +41,6 @@ pub(super) struct PlateSource {
 const LARGE_BASELINE_N: f64 = 10.0;
 /// Baselines below this are not reported [N].
 const SMALL_BASELINE_N: f64 = 0.5;
-/// A plate whose force varies by less than this was not stepped on [N].
-const STEP_N: f64 = 50.0;
-/// A jump of a force is larger than this share of the load of the plate.
-const RINGING: f64 = 0.2;
 /// The centre of pressure may lie this far beyond the edge [m]: errors of corners and of light loads.
 const EDGE_SLACK_M: f64 = 0.05;
 /// Smallest load for evaluating centres of pressure, as a share of the peak.
@@ -169,22 +165,12 @@ fn bridge_excursions(
     // The free moment of type 1 follows from the centre of pressure, which jumps under a small load.
     let is_direct = |i: usize| !kind.is_coordinate(i) && (kind != PlateKind::Point || i < 3);
     for (i, channel) in channels.iter_mut().enumerate().filter(|(i, _)| is_direct(*i)) {
-        // A stiff plate rings after a hard strike, by less than this share of the load.
         let is_force = i < 3 || kind.has_four_sensors();
         let least = if is_force { RINGING * load_n / source.units.force_n } else { 0.0 };
         let spans = glitches::excursions(channel, source.rate_hz, least);
         spans.iter().for_each(|span| glitches::bridge(channel, span));
-        let (Some(first), Some(longest)) = (spans.first(), spans.iter().map(Range::len).max()) else { continue };
-        let message = format!(
-            "channel {} of {} jumps away and back, first at {:.3} s, {} in all, for {:.1} ms at most: no load does \
-             this; straight lines were drawn instead. hint: look for a loose cable",
-            i + 1,
-            source.name,
-            source.times[first.start],
-            counted(spans.len(), "time"),
-            1e3 * longest as f64 / source.rate_hz
-        );
-        findings.report(Code::PlatesExcursion, message);
+        let what = format!("channel {} of {}", i + 1, source.name);
+        glitches::report(&what, &spans, (&source.times, source.rate_hz), findings);
     }
 }
 
@@ -208,10 +194,13 @@ fn report_still(
         .collect();
     if !still.is_empty() {
         let message = format!(
-            "{} carried a load of {high:.0} N, but channel {} has one value all the time: this part of the force is \
-             missing, and moments that need it are wrong. hint: check cables, amplifier and FORCE_PLATFORM:CHANNEL",
+            "{} carried a load of {high:.0} N, but {} one value all the time: this part of the force is missing, and \
+             moments that need it are wrong. hint: check cables, amplifier and FORCE_PLATFORM:CHANNEL",
             source.name,
-            still.join(", ")
+            match &still[..] {
+                [one] => format!("channel {one} has"),
+                several => format!("channels {} have", several.join(", ")),
+            }
         );
         findings.report(Code::PlatesStillChannel, message);
     }

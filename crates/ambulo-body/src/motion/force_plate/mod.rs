@@ -21,7 +21,6 @@ mod body_weight;
 mod c3d;
 mod clipping;
 mod decode;
-mod glitches;
 mod kind;
 mod reread;
 mod standing;

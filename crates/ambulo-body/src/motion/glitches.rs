@@ -4,11 +4,16 @@
 //! A foot loads a plate by at most about 0.2 body weights in a millisecond, and takes more than 50 ms to load and
 //! unload it. A jump is a change from one sample to the next by more than a quarter of the range of the channel and
 //! three times its hundredth largest change, so that noise is none. Below 500 Hz a strike may be as fast.
-//! Pinned by: tests/force_plate.rs
+//! Pinned by: tests/force_plate.rs, tests/force_tables.rs
 
-use crate::numerics::sort_numbers;
-use std::ops::Range;
+use crate::findings::{Code, Findings};
+use crate::numerics::{counted, sort_numbers};
+use std::ops::{Add, Mul, Range, Sub};
 
+/// A plate whose force varies by less than this was not stepped on [N].
+pub(super) const STEP_N: f64 = 50.0;
+/// A jump of a force is larger than this share of the load: a stiff plate rings after a hard strike.
+pub(super) const RINGING: f64 = 0.2;
 /// Slowest rate at which jumps are judged [Hz].
 const SLOWEST_HZ: f64 = 500.0;
 /// Longest excursion [s].
@@ -53,6 +58,19 @@ fn smallest_jump(samples: &[f64], changes: &[f64]) -> Option<f64> {
     Some((JUMP_SHARE * range(samples)?).max(JUMP_RATIO * change)).filter(|jump| *jump > 0.0)
 }
 
+/// Reports the excursions of a signal, if it has any.
+pub(super) fn report(what: &str, spans: &[Range<usize>], (times, rate_hz): (&[f64], f64), findings: &mut Findings) {
+    let (Some(first), Some(longest)) = (spans.first(), spans.iter().map(Range::len).max()) else { return };
+    let message = format!(
+        "{what} jumps away and back, first at {:.3} s, {} in all, for {:.1} ms at most: no load does this; straight \
+         lines were drawn instead. hint: look for a loose cable",
+        times[first.start],
+        counted(spans.len(), "time"),
+        1e3 * longest as f64 / rate_hz
+    );
+    findings.report(Code::PlatesExcursion, message);
+}
+
 /// Range of a channel without its rarest values; `None` without samples.
 pub(super) fn range(samples: &[f64]) -> Option<f64> {
     let [low, high] = places(samples, [RARE, 1.0 - RARE])?;
@@ -72,10 +90,13 @@ pub(super) fn is_still(samples: &[f64]) -> bool {
 }
 
 /// Draws a straight line through some samples, from the one before to the one after.
-pub(super) fn bridge(samples: &mut [f64], span: &Range<usize>) {
+pub(super) fn bridge<T>(samples: &mut [T], span: &Range<usize>)
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+{
     let (before, after) = (samples[span.start - 1], samples[span.end]);
     let steps = (span.len() + 1) as f64;
     for (k, sample) in samples[span.clone()].iter_mut().enumerate() {
-        *sample = before + (after - before) * (k + 1) as f64 / steps;
+        *sample = before + (after - before) * ((k + 1) as f64 / steps);
     }
 }

@@ -1,0 +1,121 @@
+//! What no load does to a force of a table: spikes are bridged and reported, and columns that never move are named.
+//!
+//! | claim | tolerance |
+//! |---|---|
+//! | outside of a bridged spike force, point and moment are as recorded; inside they are a straight line | exact |
+//! | an excursion of 50 ms is bridged, one of 51 ms is a load | exact |
+//! | clean tables, and those of a plane, are silent | exact |
+
+use ambulo::findings::{Code, Findings};
+use ambulo::formats::external_loads::{ExternalForce, ExternalLoads};
+use ambulo::formats::table::Table;
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::motion::{ForceRecording, force_recordings};
+use std::ops::Range;
+
+const RATE_HZ: f64 = 1000.0;
+const FRAMES: usize = 900;
+/// Names of the columns of one load after its prefix.
+const COLUMNS: [&str; 9] = ["vx", "vy", "vz", "px", "py", "pz", "x", "y", "z"];
+
+/// Two stances of 0.4 s, one of each foot, as half sines of 800 N, with shear and a travelling point.
+fn columns() -> Vec<(String, Vec<f64>)> {
+    let time = |i: usize| i as f64 / RATE_HZ;
+    let mut columns = vec![("time".to_owned(), (0..FRAMES).map(time).collect::<Vec<f64>>())];
+    for (load, start) in [("right_", 50), ("left_", 450)] {
+        let phase = |i: usize| (i as f64 - f64::from(start)) / 400.0;
+        let load_n = |i: usize| {
+            if (0.0..1.0).contains(&phase(i)) { 800.0 * (std::f64::consts::PI * phase(i)).sin() } else { 0.0 }
+        };
+        let shear = |i: usize| 0.2 * load_n(i) * (std::f64::consts::TAU * phase(i)).sin();
+        let of = |name: &str| -> Vec<f64> {
+            let value = |i: usize| match name {
+                "vx" => shear(i),
+                "vy" => load_n(i),
+                "vz" => 0.05 * load_n(i),
+                "px" => 0.2 * phase(i),
+                "y" => 0.01 * shear(i),
+                _ => 0.0,
+            };
+            (0..FRAMES).map(value).collect()
+        };
+        columns.extend(COLUMNS.map(|name| (format!("{load}{name}"), of(name))));
+    }
+    columns
+}
+
+fn set(columns: &mut [(String, Vec<f64>)], name: &str, rows: Range<usize>, value: f64) {
+    columns.iter_mut().find(|(known, _)| known == name).unwrap().1[rows].fill(value);
+}
+
+fn read(columns: Vec<(String, Vec<f64>)>) -> (Vec<ForceRecording>, Findings) {
+    let build = Build { table: SegmentTable::DeLevaMale, mass: 75.0, height: 1.75, toe_joint: false };
+    let model = build.human().unwrap().model;
+    let table = Table::new("forces", columns).unwrap();
+    let load = |(side, body): (&str, &str)| ExternalForce::with_prefix(side, body, &format!("{side}_"));
+    let forces = [("right", "calcn_r"), ("left", "calcn_l")].map(load).to_vec();
+    let mut findings = Findings::default();
+    let loads = ExternalLoads { name: "feet".into(), datafile: None, forces };
+    (force_recordings(&model, &loads, &table, &mut findings).unwrap(), findings)
+}
+
+fn message(findings: &Findings, code: Code) -> Option<String> {
+    findings.as_slice().iter().find(|finding| finding.code == code).map(|finding| finding.message.clone())
+}
+
+#[test]
+fn a_spike_in_a_table_is_bridged_with_its_point_and_its_moment() {
+    let (clean, findings) = read(columns());
+    assert_eq!(findings.as_slice(), []);
+    let mut spoiled = columns();
+    set(&mut spoiled, "right_vy", 200..203, -6000.0);
+    set(&mut spoiled, "right_px", 200..203, 4.0);
+    set(&mut spoiled, "right_y", 200..203, 90.0);
+    let (found, findings) = read(spoiled);
+    let said = message(&findings, Code::PlatesExcursion).unwrap();
+    assert!(said.contains("the force `right` along y jumps away and back, first at 0.200 s, 1 time in all"), "{said}");
+    for i in 0..FRAMES {
+        let inside = (200..203).contains(&i);
+        let share = (i as f64 - 199.0) / 4.0;
+        let expected = |values: &dyn Fn(usize) -> ambulo::spatial::Vec3| match inside {
+            true => values(199) + (values(203) - values(199)) * share,
+            false => values(i),
+        };
+        let [own, other] = [&found[0], &clean[0]];
+        assert!((own.force[i] - expected(&|k| other.force[k])).norm() < 1e-9, "force {i}");
+        assert!((own.point[i] - expected(&|k| other.point[k])).norm() < 1e-9, "point {i}");
+        assert!((own.moment[i] - expected(&|k| other.moment[k])).norm() < 1e-9, "moment {i}");
+    }
+    assert_eq!(found[1], clean[1]);
+}
+
+#[test]
+fn what_lasts_longer_than_50_ms_is_a_load() {
+    for (length, is_bridged) in [(50, true), (51, false)] {
+        let mut spoiled = columns();
+        set(&mut spoiled, "right_vy", 200..200 + length, 0.0);
+        let (_, findings) = read(spoiled);
+        assert_eq!(findings.has(Code::PlatesExcursion), is_bridged, "{length} ms");
+    }
+}
+
+#[test]
+fn a_column_that_never_moves_is_named_unless_the_table_is_of_a_plane() {
+    let still = |columns| message(&read(columns).1, Code::PlatesStillChannel);
+    let mut dead = columns();
+    set(&mut dead, "left_vx", 0..FRAMES, 0.0);
+    let said = still(dead).unwrap();
+    assert!(said.contains("the force `left` carries a load of 8") && said.contains("one value along x"), "{said}");
+    let mut plane = columns();
+    for load in ["left_vz", "right_vz"] {
+        set(&mut plane, load, 0..FRAMES, 0.0);
+    }
+    assert_eq!(still(plane.clone()), None, "a plane has no force across it");
+    set(&mut plane, "left_vz", 0..FRAMES, 3.0);
+    assert!(still(plane).unwrap().contains("one value along z"));
+    let mut idle = columns();
+    for name in ["vx", "vy", "vz"] {
+        set(&mut idle, &format!("left_{name}"), 0..FRAMES, 0.0);
+    }
+    assert_eq!(still(idle), None, "a load that carries nothing is no broken one");
+}
