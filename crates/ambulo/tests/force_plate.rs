@@ -420,13 +420,21 @@ fn lengths_of_no_plate_in_any_unit_are_an_error_that_names_the_parameter() {
 }
 
 #[test]
-fn plates_of_four_hundred_metres_were_written_in_millimetres() {
-    let mut file = type_2().record();
-    file.point_unit = "m".to_owned();
-    let mut findings = Findings::default();
-    let plates = plates_from_c3d(&file, PlateSettings::default(), &mut findings).unwrap();
-    assert_person(&plates[0]);
-    assert!(findings.has(Code::PlatesUnitChanged));
+fn plates_of_four_hundred_metres_or_four_centimetres_were_written_in_another_unit() {
+    for (unit, factor) in [("m", 1.0), ("mm", 0.1)] {
+        let mut file = type_2();
+        file.corners_mm.iter_mut().flatten().for_each(|corner| *corner *= factor);
+        let mut file = file.record();
+        file.point_unit = unit.to_owned();
+        let mut findings = Findings::default();
+        let plates = plates_from_c3d(&file, PlateSettings::default(), &mut findings).unwrap();
+        let edge_m = (plates[0].corners[0] - plates[0].corners[1]).norm();
+        assert!((edge_m - 0.4).abs() < 1e-6, "{unit} {edge_m}");
+        assert!(findings.has(Code::PlatesUnitChanged));
+        if unit == "m" {
+            assert_person(&plates[0]);
+        }
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn forward_is_the_facing_direction_in_backward_walking_and_sideways_walking_is_r
 }
 
 #[test]
-fn a_body_of_a_thousand_metres_was_written_in_millimetres() {
+fn a_body_of_a_size_that_nobody_has_was_written_in_another_unit() {
     let big = straight().rotated(&(Mat3::identity() * 1000.0));
     let (found_big, findings) = found(&big);
     assert!((found_big.metres_per_stated_metre - 0.001).abs() < ROUNDING && findings.has(Code::LaboratoryUnitChanged));
@@ -130,6 +130,16 @@ fn a_body_of_a_thousand_metres_was_written_in_millimetres() {
     assert!((back.marker("RASI").unwrap().positions[0] - Vec3::from(BODY[0].1)).norm() < 1e-9);
     let (small, _) = found(&straight().rotated(&(Mat3::identity() * 0.01)));
     assert!((small.metres_per_stated_metre - 100.0).abs() < ROUNDING);
+    // Centimetres that were stated as millimetres, and the other way round.
+    for factor in [0.1, 10.0] {
+        let (found, findings) = found(&straight().rotated(&(Mat3::identity() * factor)));
+        assert!((found.metres_per_stated_metre * factor - 1.0).abs() < ROUNDING, "{}", found.statement);
+        assert!(findings.has(Code::LaboratoryUnitChanged));
+    }
+    // What lies flat is long, and no small person who stands.
+    let flat = Mat3::from_diagonal(&Vec3::new(5.0, 0.1, 1.0));
+    let (lying, findings) = found(&straight().rotated(&flat));
+    assert!((lying.metres_per_stated_metre - 1.0).abs() < ROUNDING && findings.has(Code::LaboratorySizeOdd));
     // A child of half the size is a child.
     let (child, findings) = found(&straight().rotated(&(Mat3::identity() * 0.5)));
     assert!((child.metres_per_stated_metre - 1.0).abs() < ROUNDING && findings.as_slice().is_empty());

@@ -34,8 +34,10 @@ const TURN_DEG: f64 = 20.0;
 const SIDEWAYS_DEG: f64 = 60.0;
 /// Plausible heights of the markers, from a set for the legs of a child to a tall adult with raised arms [m].
 const HEIGHT_M: [f64; 2] = [0.35, 3.0];
+/// Longest extent of the markers that a factor may give [m]; stray markers lie around a person.
+const LONGEST_M: f64 = 6.0;
 /// Factors of wrong units.
-const UNIT_FACTORS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+const UNIT_FACTORS: [f64; 6] = [0.001, 0.01, 0.1, 10.0, 100.0, 1000.0];
 /// Directions are averaged only if the mean of the unit vectors is at least this long.
 const LEAST_AGREEMENT: f64 = 0.7;
 
@@ -218,7 +220,11 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
     if fits(1.0) || height <= 0.0 {
         return 1.0;
     }
-    let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f)) else {
+    // Who lies is long.
+    let frames = 0..markers.frames();
+    let length = |axis: Vec3| median(frames.clone().filter_map(|i| extent(markers, i, axis))).unwrap_or(0.0);
+    let longest = [Vec3::x(), Vec3::y(), Vec3::z()].map(length).into_iter().fold(height, f64::max);
+    let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f) && longest * f <= LONGEST_M) else {
         let message = format!(
             "the markers span {height:.3} m from lowest to highest, which is not a standing person in any unit; \
              lengths were not changed"

@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Plausible edges of plates: from a step to a treadmill [m].
 const EDGE_M: [f64; 2] = [0.1, 10.0];
 /// Factors of wrong units.
-const UNIT_FACTORS: [f64; 4] = [0.001, 0.01, 100.0, 1000.0];
+const UNIT_FACTORS: [f64; 6] = [0.001, 0.01, 0.1, 10.0, 100.0, 1000.0];
 
 /// Why no plate can be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
