@@ -2,7 +2,7 @@
 //!
 //! | claim | tolerance |
 //! |---|---|
-//! | exchanged labels, of all markers or of a pair, are undone | exact |
+//! | exchanged labels, of all markers, of a pair or within a leg, are undone where they are wrong | exact |
 //! | a marker that the standing trial lacks is placed by the walk: angle of the ankle, mean over the frames | 3 degrees |
 //! | a marker that moved by 40 mm is named; another person's standing trial is | - |
 //! | in a folder of several people each gets the own standing trial | exact |
@@ -234,6 +234,33 @@ fn a_pair_that_is_exchanged_throughout_is_exchanged_back() {
             assert!(message(&findings, Code::MarkersSwap).contains(right), "{right}");
             for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
                 assert!(apart(clean, &found, name) < 1e-6, "{right} {name}");
+            }
+        }
+    }
+}
+
+/// Exchanged in the standing trial, the labels of the walk would be exchanged instead, and the joint would be
+/// elsewhere.
+#[test]
+fn two_markers_of_a_leg_that_are_exchanged_in_one_recording_are_exchanged_back_there() {
+    let Some(data) = data() else { return };
+    for person in &PEOPLE {
+        let (clean, _) = person.computed(&data);
+        for [a, b] in [["LKNE", "LTHI"], ["RANK", "RTIB"], ["LHEE", "LTOE"], ["RANK", "RHEE"]] {
+            for (in_walk, which) in [(true, "whole recording"), (false, "whole standing trial")] {
+                let mut spoiled = source(person, &data);
+                let exchange = |recording: &mut MarkerRecording| exchange_pair(recording, a, b);
+                if in_walk {
+                    change_walk(&mut spoiled, exchange)
+                } else {
+                    change_standing(&mut spoiled, exchange)
+                }
+                let (found, findings) = run(spoiled);
+                let said = message(&findings, Code::MarkersSwap);
+                assert!(said.contains(a) && said.contains(b) && said.contains(which), "{} {a}: {said}", person.name);
+                for name in ["hip_flexion_l", "knee_angle_l", "ankle_angle_r"] {
+                    assert!(apart(clean, &found, name) < 1e-6, "{} {a} {name}", person.name);
+                }
             }
         }
     }

@@ -27,9 +27,9 @@ pub(crate) fn joints_of_movement(
     let labelled = |recording: &LaboratoryRecording, ignored: &mut Findings| {
         identity::with_right_labels(recording, "movement", set, &mut Vec::new(), ignored).into_owned()
     };
-    let moving = trial.body.turned(&labelled(trial.trial, ignored), ignored).1.markers;
+    let mut moving = trial.body.turned(&labelled(trial.trial, ignored), ignored).1.markers;
     let shown = labelled(movement, ignored).markers;
-    let standing = trial.standing_markers(&mut Vec::new(), ignored);
+    let standing = trial.standing_markers(&mut moving, &mut Vec::new(), ignored).map(|standing| standing.markers);
     let mut person = person.clone();
     let body = |person: &_| {
         let source = BodySource::BuiltIn { person, set };

@@ -100,16 +100,17 @@ pub(crate) fn fit_body_to_markers(
     let mut contradictions = Vec::new();
     let labelled = identity::with_right_labels(trial.trial, "recording", set, &mut contradictions, findings);
     let (axes, LaboratoryRecording { markers, poses, plates, .. }) = trial.body.turned(&labelled, findings);
-    let markers = trimmed_to_visible(markers, findings);
+    let mut markers = trimmed_to_visible(markers, findings);
     progress.end(Stage::Axes)?;
     if let Some(poses) = poses {
         let posed = PosedTrial { axes, plates, poses: during(&poses, &markers), points: markers };
         return posed.followed(&trial.body, trial.plate_feet, settings, findings, progress);
     }
+    let standing = trial.standing_markers(&mut markers, &mut contradictions, findings);
     let keypoints = Keypoints::recognised(&markers, set);
     let moving = keypoints.as_ref().map_or(&markers, |keypoints| &keypoints.smooth);
-    let standing = trial.standing_markers(&mut contradictions, findings);
     let subject = trial.subject(moving, standing.as_ref(), findings)?;
+    let standing = standing.map(|standing| standing.markers);
     progress.end(Stage::Body)?;
     let settings = settings_of(&subject, settings);
     let (markers, plates) = match &keypoints {
@@ -142,32 +143,51 @@ pub(crate) fn fit_body_to_markers(
     Ok(BodyInMotion { recorded_markers, keypoints, contradictions, knees, cross_talk, ..moving })
 }
 
+/// The standing trial of a motion.
+pub(super) struct StandingMarkers {
+    pub(super) markers: MarkerRecording,
+    /// Whether labels were exchanged back because the motion contradicts them.
+    needs_motion: bool,
+}
+
 impl MarkerTrial<'_> {
-    /// The markers of the standing trial in world axes, with the labels of the person.
+    /// The markers of the standing trial in world axes, with the labels of the person; labels that are exchanged in
+    /// the motion are exchanged back there.
     pub(super) fn standing_markers(
         &self,
+        moving: &mut MarkerRecording,
         contradictions: &mut Vec<String>,
         findings: &mut Findings,
-    ) -> Option<MarkerRecording> {
+    ) -> Option<StandingMarkers> {
         let set = self.body.marker_set();
-        let standing = identity::with_right_labels(self.standing?, "standing trial", set, contradictions, findings);
-        let found = self.body.turned(&standing, findings).1.markers;
-        Some(Keypoints::recognised(&found, set).map_or(found, |points| points.smooth))
+        let Some(standing) = self.standing else {
+            identity::exchange_in_motion(moving, set, findings);
+            return None;
+        };
+        let standing = identity::with_right_labels(standing, "standing trial", set, contradictions, findings);
+        let mut found = self.body.turned(&standing, findings).1.markers;
+        let [needs_motion, _] = identity::exchange_along_limbs([&mut found, moving], set, findings);
+        let markers = Keypoints::recognised(&found, set).map_or(found, |points| points.smooth);
+        Some(StandingMarkers { markers, needs_motion })
     }
 
     /// The body, from the standing trial, if there is one, with the markers that only the motion has.
     fn subject(
         &self,
         moving: &MarkerRecording,
-        standing: Option<&MarkerRecording>,
+        standing: Option<&StandingMarkers>,
         findings: &mut Findings,
     ) -> Result<Subject, MarkerTrialError> {
+        let needs_motion = standing.is_some_and(|standing| standing.needs_motion);
+        let standing = standing.map(|standing| &standing.markers);
         let whole = standing.and_then(|standing| self.body.completed(standing, moving, findings));
         let from = whole.as_ref().or(standing);
         let calibrated = |findings: &mut Findings| Subject::of_source(&self.body, moving, from, findings);
         // A body that also needs markers of this motion cannot be shared with other motions.
         let subject = match (standing, self.bodies) {
-            (Some(_), Some(bodies)) if whole.is_none() => bodies.subject(&self.body, findings, calibrated),
+            (Some(_), Some(bodies)) if whole.is_none() && !needs_motion => {
+                bodies.subject(&self.body, findings, calibrated)
+            }
             _ => calibrated(findings),
         };
         let subject = subject?.with_chosen_knee_axes(&self.body, moving, from, findings)?;

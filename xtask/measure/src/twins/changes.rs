@@ -288,6 +288,15 @@ pub(super) fn plates_moved(trial: &mut Trial, is_along: bool, distance_mm: f64) 
     each_platform(&mut trial.moving, |plate| plate.corners.iter_mut().for_each(|corner| corner[axis] += units))
 }
 
+/// The first of these pairs of markers of one limb that is there has exchanged labels.
+pub(super) fn along_limb(file: &mut C3d, pairs: &[[&str; 2]]) -> Option<()> {
+    let number = |name: &str| file.points.iter().position(|point| bare(&point.name) == name);
+    let [a, b] = pairs.iter().find_map(|[a, b]| Some([number(a)?, number(b)?]))?;
+    let name = std::mem::take(&mut file.points[a].name);
+    file.points[a].name = std::mem::replace(&mut file.points[b].name, name);
+    Some(())
+}
+
 /// The corners of the first plate alone in another order.
 pub(super) fn corners_of_one(trial: &mut Trial, order: fn([Position; 4]) -> [Position; 4]) -> Option<()> {
     let mut count = 0;

@@ -1,8 +1,8 @@
 //! The faults of laboratories, and what names them.
 
 use super::changes::{
-    Way, clock, corners, corners_of_one, cross_talk, delayed, exchanged, frozen, held, left_handed, mirrored_force,
-    moved, other_stands, pair, plate_silent, plates_moved, scaled, two_people, without,
+    Way, along_limb, clock, corners, corners_of_one, cross_talk, delayed, exchanged, frozen, held, left_handed,
+    mirrored_force, moved, other_stands, pair, plate_silent, plates_moved, scaled, two_people, without,
 };
 use super::spoiled::Trial;
 
@@ -63,6 +63,17 @@ pub(super) const FAULTS: &[Fault] = &[
         },
     },
     Fault { name: "an axis mirrored", codes: SIDES, spoil: |t| left_handed(t) },
+    Fault { name: "knee and thigh exchanged", codes: PAIR, spoil: |t| along_limb(&mut t.moving, &KNEE_AND_THIGH) },
+    Fault {
+        name: "standing trial's knee and thigh exchanged",
+        codes: PAIR,
+        spoil: |t| along_limb(t.standing.as_mut()?, &KNEE_AND_THIGH),
+    },
+    Fault {
+        name: "standing trial's ankle and shank exchanged",
+        codes: PAIR,
+        spoil: |t| along_limb(t.standing.as_mut()?, &ANKLE_AND_SHANK),
+    },
     Fault { name: "knees exchanged", codes: PAIR, spoil: |t| pair(t, &["LKNE", "L_FLE"]) },
     Fault { name: "wrists exchanged", codes: PAIR, spoil: |t| pair(t, &["LWRA", "L_RSP"]) },
     Fault { name: "ankles exchanged", codes: PAIR, spoil: |t| pair(t, &["LANK", "L_FAL"]) },
@@ -106,5 +117,7 @@ const UNSEEN: &[&str] = &["calibration.placed", "markers.not_measured"];
 pub(super) const TOES: &[&str] = &["RTOE", "R_FM2", "RMT2", "R_FM1"];
 const KNEES: &[&str] = &["RKNE", "R_FLE"];
 const ANKLES: &[&str] = &["RANK", "R_FAL"];
+const KNEE_AND_THIGH: [[&str; 2]; 2] = [["LKNE", "LTHI"], ["L_FLE", "L_FTC"]];
+const ANKLE_AND_SHANK: [[&str; 2]; 2] = [["LANK", "LTIB"], ["L_FAL", "L_FAX"]];
 const FRONTS: &[&str] = &["RASI", "R_IAS"];
 pub(super) const HEELS: &[&str] = &["RHEE", "R_FCC", "RHEEL"];

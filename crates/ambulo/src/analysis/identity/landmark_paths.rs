@@ -14,7 +14,7 @@ const MOST_FRAMES: usize = 100;
 /// The two front points of a foot, the best first.
 pub(super) const FRONTS: [Landmark; 5] =
     [Landmark::SecondToe, Landmark::Hallux, Landmark::FirstMetatarsal, Landmark::FifthMetatarsal, Landmark::SmallToe];
-const ANKLES: [Landmark; 3] = [Landmark::LateralMalleolus, Landmark::AnkleCentre, Landmark::MedialMalleolus];
+pub(super) const ANKLES: [Landmark; 3] = [Landmark::LateralMalleolus, Landmark::AnkleCentre, Landmark::MedialMalleolus];
 const REARS: [Landmark; 4] =
     [Landmark::Heel, Landmark::LateralMalleolus, Landmark::AnkleCentre, Landmark::MedialMalleolus];
 

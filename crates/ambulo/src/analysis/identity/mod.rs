@@ -5,12 +5,14 @@
 //! | several people in one file | two prefixes carry the same marker names | an error with the names ([`several`]) |
 //! | left and right exchanged in all labels | pairs of markers against toes, heels and pelvis ([`sides`]) | exchanged back, a warning, quality not good |
 //! | one pair exchanged throughout | the same, and the distances to the neighbours ([`pairs`]) | exchanged back, a warning |
+//! | two markers of a limb exchanged in one recording | the limb in the other recording and on the other side, or the joints ([`along_limbs`]) | exchanged back there, a warning |
 //! | a marker that the standing trial lacks | the motion has it ([`completion`], [`model_completion`]) | placed by the motion, a warning |
 //! | another person's standing trial | lengths of the limbs ([`limbs`]) | a warning, quality not good |
 //! | a marker that moved since the standing trial | its place on the body, by all other markers ([`moved`]) | a warning, quality not good |
 //!
 //! Pinned by: tests/identity.rs
 
+mod along_limbs;
 mod completion;
 mod landmark_paths;
 mod limbs;
@@ -20,6 +22,7 @@ mod pairs;
 mod several;
 mod sides;
 
+pub(super) use along_limbs::{exchange_along_limbs, exchange_in_motion};
 pub(super) use completion::completed;
 pub(crate) use limbs::{
     Limb, OTHER as OTHER_LIMBS, OTHER_WITHOUT_TWO as OTHER_LIMBS_WITHOUT_TWO, difference as limb_difference, limbs,

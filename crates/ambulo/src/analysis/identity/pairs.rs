@@ -54,7 +54,7 @@ fn order(marker: &NamedMarker) -> (Segment, bool) {
     (marker.definition.segment, !is_joint(marker.definition.landmark))
 }
 
-fn is_joint(landmark: Option<Landmark>) -> bool {
+pub(super) fn is_joint(landmark: Option<Landmark>) -> bool {
     use Landmark as L;
     let joints = [
         L::Asis,
