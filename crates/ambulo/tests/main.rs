@@ -186,6 +186,7 @@ mod unchanged_results;
 mod validation;
 mod walk_changes;
 mod walking;
+mod walking_backwards;
 mod weighing;
 mod world_check;
 mod xsens_motions;

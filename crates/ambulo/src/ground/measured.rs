@@ -58,6 +58,18 @@ pub struct GroundForces {
     pub bodies: Arc<[BodyForces]>,
 }
 
+impl BodyForces {
+    /// The forces when time runs from the end to the beginning.
+    pub(super) fn played_back(mut self) -> BodyForces {
+        self.force.reverse();
+        self.moment.reverse();
+        self.center_of_pressure.reverse();
+        self.free_moment.reverse();
+        self.surface_height.reverse();
+        self
+    }
+}
+
 impl GroundForces {
     /// The loads for [`crate::dynamics::inverse`].
     #[must_use]

@@ -15,6 +15,10 @@
 //! detection of human gait events: a simple but versatile 3D algorithm", J. NeuroEng. Rehabil. 2025); O'Connor's height
 //! limit for the strike is unverified.
 //!
+//! Who walks backwards lands on the toes and leaves the floor with the heel. Played back, this is a walk forwards
+//! (Winter, Pluck, Yang 1989, unverified): the events are those of the recording played back, strikes and offs
+//! exchanged.
+//!
 //! Markers are low-pass filtered first. Speeds are relative to the floor, which moves on a treadmill: the speed of the
 //! floor is the speed of low foot markers. Times of extrema come from a parabola through three samples.
 //! Pinned by: tests/foot_motion.rs, tests/laboratory_files.rs
@@ -26,7 +30,7 @@ mod signals;
 use super::phases::{Contact, contacts_from_events};
 use crate::findings::{Code, Findings};
 use crate::model::Side;
-use crate::motion::{Event, Landmarks, MarkerRecording};
+use crate::motion::{Event, EventKind, Landmarks, MarkerRecording};
 use crate::numerics::Order;
 use agreement::agreed;
 use methods::events_of;
@@ -82,6 +86,29 @@ pub struct FootMotion {
 }
 
 impl FootMotion {
+    /// The events of a recording played back, in the recording; `ends_s` is the sum of its first and last time [s].
+    fn played_back(mut self, ends_s: f64) -> FootMotion {
+        let back = |events: &mut Vec<Event>| {
+            for event in events.iter_mut() {
+                let kind = if event.kind == EventKind::Strike { EventKind::Off } else { EventKind::Strike };
+                *event = Event { kind, time_s: ends_s - event.time_s, ..*event };
+            }
+            events.sort_by_numbers(|event| [event.time_s, event.side.rank()]);
+        };
+        self.by_method.iter_mut().for_each(|(_, events)| back(events));
+        back(&mut self.events);
+        for contacts in &mut self.contacts {
+            let turned = |contact: &Contact| Contact {
+                strike_s: contact.off_s.map(|time_s| ends_s - time_s),
+                off_s: contact.strike_s.map(|time_s| ends_s - time_s),
+            };
+            *contacts = contacts.iter().rev().map(turned).collect();
+        }
+        self.floor_speed_m_s = -self.floor_speed_m_s;
+        self.walking_speed_m_s = -self.walking_speed_m_s;
+        self
+    }
+
     /// Contacts of one foot.
     #[must_use]
     pub fn contacts_of(&self, side: Side) -> &[Contact] {
@@ -111,6 +138,10 @@ pub(crate) fn foot_motion_of_landmarks(
     let pelvis = mean_path(markers, &landmarks.pelvis());
     let floor = floor_speed(markers, &feet);
     let walking = pelvis.as_ref().map_or(f64::NAN, |p| mean_rate(markers, p) - floor);
+    if let ([first_s, .., last_s], true) = (&markers.times[..], walking < -SLOWEST_WALK_M_S) {
+        let forwards = foot_motion_of_landmarks(&played_back(markers), landmarks, findings);
+        return forwards.played_back(first_s + last_s);
+    }
     let mut by_method = Vec::new();
     for method in EventMethod::ALL {
         let mut events: Vec<Event> = Vec::new();
@@ -135,6 +166,15 @@ pub(crate) fn foot_motion_of_landmarks(
     let events = agreed(&by_method);
     let contacts = Side::BOTH.map(|side| contacts(markers, &feet, side, &events, walking));
     FootMotion { by_method, events, feet_without_markers, contacts, floor_speed_m_s: floor, walking_speed_m_s: walking }
+}
+
+/// The recording from its end to its beginning.
+fn played_back(markers: &MarkerRecording) -> MarkerRecording {
+    let (Some(first_s), Some(last_s)) = (markers.times.first(), markers.times.last()) else { return markers.clone() };
+    let mut back = markers.clone();
+    back.times = markers.times.iter().rev().map(|time_s| first_s + last_s - time_s).collect();
+    back.markers.iter_mut().for_each(|marker| marker.positions.reverse());
+    back
 }
 
 /// Contacts from events. While the person stands still, the feet are on the ground all the time.

@@ -53,6 +53,7 @@
 //! Not handled: belts of different speed under the two feet. A foot that slides under load is detected only where it is
 //! slow enough. Pinned by: tests/footfalls.rs, tests/footfalls_synthetic.rs, tests/footfalls_puppet.rs
 
+mod backwards;
 mod belt;
 mod floor;
 mod instants;
@@ -67,6 +68,7 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind};
 use crate::numerics::Order;
 use crate::spatial::Vec3;
+pub(super) use backwards::{spread, walks_backwards};
 use belt::Belt;
 #[doc(hidden)]
 pub use instants::OffSpeed;
@@ -152,6 +154,10 @@ pub fn footfalls_at(
 /// Detects the stances from their signals.
 pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Findings) -> Footfalls {
     let belt = Belt::new(signals);
+    if signals.is_backwards(belt.overall) {
+        let ends_s = signals.grid.start_s + signals.grid.end_s();
+        return detect(&signals.played_back(), off_speed, findings).played_back(ends_s);
+    }
     let walking = stationary::walking_speed(signals, &belt);
     let mut runs: Vec<_> =
         signals.feet.iter().map(|foot| stationary::stationary(signals, &belt, &walking, foot)).collect();
@@ -164,8 +170,6 @@ pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Find
         falls.extend(of_foot);
     }
     floor::share_floors(&mut falls);
-    let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
-    falls.sort_by_numbers(|fall| [start(fall), fall.side.rank()]);
     if falls.is_empty() {
         let why = if signals.feet.is_empty() {
             "the model has no foot with a known sole, so no stance phase was detected. hint: feet are found at the \
@@ -184,7 +188,14 @@ pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Find
         );
         findings.report(Code::FootfallsBelt, message);
     }
-    Footfalls { falls, floor_velocity: belt.overall }
+    Footfalls { falls: in_order(falls), floor_velocity: belt.overall }
+}
+
+/// Footfalls in order of time.
+fn in_order(mut falls: Vec<Footfall>) -> Vec<Footfall> {
+    let start = |fall: &Footfall| fall.strike_s.unwrap_or(f64::NEG_INFINITY);
+    falls.sort_by_numbers(|fall| [start(fall), fall.side.rank()]);
+    falls
 }
 
 /// The stance of one of the times at which a foot is stationary.

@@ -28,7 +28,7 @@ pub(in crate::ground) struct Signals {
     /// Direction against gravity.
     pub(super) up: Vec3,
     /// Body weight [N].
-    weight_n: f64,
+    pub(super) weight_n: f64,
     /// √(g L), L from hip to ground: unit of walking speed [m/s].
     pub(super) leg_speed: f64,
     /// √(L / g): unit of time [s].

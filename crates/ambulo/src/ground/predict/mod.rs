@@ -2,9 +2,10 @@
 //!
 //! Newton's and Euler's laws for the whole body give the total wrench of the ground ([`total_wrench`]); the motion of
 //! the feet gives the stances ([`super::footfalls`]); normative curves at the same walking speed give a prior for each
-//! stance. The result is the maximum a posteriori estimate with its standard deviations ([`estimate`]);
-//! docs/GROUND_FORCES.md describes the method, its accuracy and its limits. In double support twelve unknowns have six
-//! equations: every result names the rule that divides the forces. Pinned by: tests/ground_predict.rs
+//! stance. Who walks backwards is played back (`played_back`). The result is the maximum a posteriori estimate with its
+//! standard deviations ([`estimate`]); docs/GROUND_FORCES.md describes the method, its accuracy and its limits. In
+//! double support twelve unknowns have six equations: every result names the rule that divides the forces. Pinned by:
+//! tests/ground_predict.rs
 
 pub(crate) mod center_path;
 pub(crate) mod deviation_calibration;
@@ -18,6 +19,7 @@ mod loads;
 mod misfit;
 mod normal_equations;
 mod personal;
+mod played_back;
 mod prescribed;
 mod samples;
 pub(crate) mod stance_curves;
@@ -46,6 +48,7 @@ pub use evidence_filter::is_smoothed;
 pub use fitted_parameters::{FittedParameters, checksum};
 pub(super) use geometry::{Geometry, GeometryFrame};
 pub use personal::{OtherPerson, PersonalErrors};
+use played_back::range_played_back;
 pub use prescribed::Prescribed;
 use samples::EstimateInputs;
 use stance_curves::StanceCurves;
@@ -327,8 +330,15 @@ pub(super) fn predict_frames(
     settings: &PredictSettings,
     wanted: Range<usize>,
 ) -> Result<Prediction, PredictError> {
-    let KnownMotion { grid, geometry, total, footfalls } = motion;
     let body_scale = body_scale(model)?;
+    if motion.is_backwards(body_scale.up) {
+        let (footfalls, frames) = (motion.footfalls.clone(), motion.grid.frames);
+        let settings = PredictSettings { prescribed: settings.prescribed.played_back(), ..settings.clone() };
+        let wanted = range_played_back(&wanted, frames);
+        let forwards = predict_frames(model, soles, motion.played_back(), &settings, wanted)?;
+        return Ok(forwards.played_back(footfalls));
+    }
+    let KnownMotion { grid, geometry, total, footfalls } = motion;
     if let Some(person) = &settings.person {
         person.check(model)?;
         let (found, expected) = (person.estimator, settings.parameters.fingerprint());
