@@ -17,7 +17,7 @@ use super::refit::refitted;
 use super::region_fit::RegionFit;
 use super::settings::{GroundSettings, Settings};
 use super::source::Source;
-use super::timing::{PlateTiming, Tempo};
+use super::timing::{CenterOffset, PlateTiming, Tempo};
 use super::tracked::tracked;
 use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::activity::{Activity, ActivityKind, activity};
@@ -32,6 +32,7 @@ use crate::findings::{Code, Finding, Findings};
 use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
 use crate::ground::stances::{Stance, StanceSource};
+use crate::model::anatomy::Movement;
 use crate::model::{CoordinateId, Model};
 use crate::motion::{DeviceRecording, Event, Smoother, Window, device_from_table};
 use std::borrow::Cow;
@@ -256,6 +257,7 @@ impl Computed {
         let place_of = || PlatePlace::of(body, &analysis.trajectory, &person.soles, &analysis.ground);
         let place = measured.then(place_of).flatten();
         place.iter().for_each(|place| place.report(findings));
+        let center_offset = self.center_offset(&stances, findings);
         let still = |finding: &&Finding| finding.code == Code::PlatesStillChannel;
         let still_channels = findings.as_slice().iter().filter(still).map(|finding| finding.message.clone()).collect();
         // The clock of a computed motion is known.
@@ -281,12 +283,30 @@ impl Computed {
             directions: &self.directions,
             heights: StanceHeights::of(body, &analysis.trajectory, &person.soles, &falls, activity.kind),
             place,
+            center_offset,
             verdict: &verdict,
             delay: self.timing.delay.filter(|_| measured),
             tempo: self.timing.tempo.or_else(by_gait),
             shown: prediction.and_then(|found| found.checks.get("motion_bandwidth")),
         };
         Judgement { quality: evidence.quality(), activity, strides, stances, verdict }
+    }
+}
+
+impl Computed {
+    /// Where plates measured the centre of pressure, against where the motion needs it, if the whole body is known: a
+    /// trunk that was not recorded may lean.
+    fn center_offset(&self, stances: &[Stance], findings: &mut Findings) -> Option<CenterOffset> {
+        let trunk = [Movement::TrunkLean, Movement::TrunkObliquity];
+        let mut of_trunk = trunk.into_iter().filter_map(|movement| self.body.anatomy().coordinate(movement, None));
+        let is_recorded = of_trunk.all(|(id, _)| self.not_measured.iter().all(|(open, _)| *open != id));
+        let is_known = is_recorded && !findings.has(Code::CalibrationTrunkUpright);
+        if self.force_origin != ForceOrigin::Measured || !is_known {
+            return None;
+        }
+        let found = CenterOffset::of(&self.body, &self.analysis, &self.person.soles, stances)?;
+        found.report(findings);
+        Some(found)
     }
 }
 

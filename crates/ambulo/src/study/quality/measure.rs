@@ -1,5 +1,6 @@
 //! Measures of the quality of data, with the limits beyond which they are doubtful or bad.
 
+use super::super::timing::MOST_OFFSET_M;
 use super::{QualityReason, QualityState};
 use crate::analysis::feasibility::LARGE_RESIDUAL_BW;
 use crate::findings::word;
@@ -55,6 +56,8 @@ pub enum Measure {
     CenterOfPressure,
     /// Distance of the measured centres of pressure from the lines of the soles, to one side.
     PlatePlace,
+    /// Distance of the measured centre of pressure from where the motion needs it, along a foot that stands alone.
+    CenterOffset,
     /// Distance of the sole of a stance from the floor of the other stances of the foot.
     StanceHeight,
     /// Number of jumps of coordinates.
@@ -90,7 +93,7 @@ pub enum QualityLimits {
 
 impl Measure {
     /// All measures, in the order of the documentation.
-    pub const ALL: [Measure; 33] = [
+    pub const ALL: [Measure; 34] = [
         Measure::ResidualForce,
         Measure::ResidualMoment,
         Measure::GroundForces,
@@ -113,6 +116,7 @@ impl Measure {
         Measure::Sliding,
         Measure::CenterOfPressure,
         Measure::PlatePlace,
+        Measure::CenterOffset,
         Measure::StanceHeight,
         Measure::Jumps,
         Measure::FrozenPoints,
@@ -152,6 +156,7 @@ impl Measure {
             Measure::Sliding => AtMost(0.05, 0.15),
             Measure::CenterOfPressure => AtMost(0.03, 0.1),
             Measure::PlatePlace => AtMost(0.03, 0.1),
+            Measure::CenterOffset => AtMost(MOST_OFFSET_M, 0.12),
             Measure::StanceHeight => AtMost(0.02, 0.05),
             Measure::Jumps => AtMost(0.0, 10.0),
             Measure::FrozenPoints => AtMost(0.05, 0.25),
@@ -205,10 +210,10 @@ impl Measure {
             Measure::Gaps => "share of the frames in which missing markers leave a coordinate unknown",
             Measure::Sliding => "speed along the ground of soles that carry half the body weight, lower quartile",
             Measure::CenterOfPressure => {
-                "largest distance of the centre of pressure of measured forces from the sole, where it is not a brief \
-                 one"
+                "largest distance of the measured centre of pressure from the sole, where it is not a brief one"
             }
             Measure::PlatePlace => "distance of the measured centres of pressure from the feet to one side",
+            Measure::CenterOffset => "distance of centres of pressure from where the motion needs them, along one foot",
             Measure::StanceHeight => {
                 "largest height of a sole above or below that of the other stances of the foot, in level walking"
             }
@@ -246,6 +251,7 @@ impl Measure {
             | Measure::Scaling
             | Measure::CenterOfPressure
             | Measure::PlatePlace
+            | Measure::CenterOffset
             | Measure::StanceHeight => "m",
             Measure::Sliding => "m/s",
             Measure::AxialRotation => "deg",

@@ -18,7 +18,7 @@ use super::idle_forces::IdleForces;
 use super::mass::BodyMass;
 use super::origin::{ForceOrigin, Tracking};
 use super::region_fit::RegionFit;
-use super::timing::{ForceDelay, Tempo};
+use super::timing::{CenterOffset, ForceDelay, Tempo};
 use super::unmeasured_leg::UnmeasuredLeg;
 use crate::analysis::PredictionCheck;
 use crate::analysis::feasibility::{Check, Reason, Verdict};
@@ -160,6 +160,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) heights: StanceHeights,
     /// Of measured forces.
     pub(super) place: Option<PlatePlace>,
+    /// Of measured forces under a whole body.
+    pub(super) center_offset: Option<CenterOffset>,
     /// How late the measured forces are; late forces do no harm to a prediction that they are only compared with.
     pub(super) delay: Option<ForceDelay>,
     /// The clock of the motion, if it is wrong.
@@ -176,7 +178,8 @@ impl QualityEvidence<'_> {
         let of_size = [self.body_mass_index(), self.still_channels()];
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff(), self.bandwidth()];
-        let of_feet = [self.sliding(), self.center_of_pressure(), self.stance_height(), self.plate_place()];
+        let of_feet =
+            [self.sliding(), self.center_of_pressure(), self.stance_height(), self.plate_place(), self.center_offset()];
         let of_plates =
             [self.unchecked_forces(), self.unmeasured_leg(), self.unassigned_forces(), self.silent_plates()];
         let of_recording = [self.force_directions(), self.force_delay(), self.tempo()];
@@ -438,6 +441,11 @@ impl QualityEvidence<'_> {
 
     fn plate_place(&self) -> Option<QualityReason> {
         self.place?.reason()
+    }
+
+    fn center_offset(&self) -> Option<QualityReason> {
+        let offset = self.center_offset.as_ref()?;
+        Measure::CenterOffset.reason(offset.distance_m(), |_| offset.message())
     }
 
     /// The floor of a level walk has one height.

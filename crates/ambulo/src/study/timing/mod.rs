@@ -1,13 +1,16 @@
-//! Whether motion and measured forces have one clock, and whether that clock runs at the right rate.
+//! Whether motion and measured forces have one clock and one place, and whether the clock runs at the right rate.
 //!
 //! Mechanics decides. Every frame needs a wrench from the ground; its part that carries the weight does not depend on
 //! the clock, the rest is inertia, which changes with the square of the rate. [`force_delay`] shifts the measured
-//! forces in time until they fit best, [`tempo`] stretches the time of the motion until it fits.
+//! forces in time until they fit best, [`tempo`] stretches the time of the motion until it fits,
+//! [`center_offset`] compares the places of the forces.
 //! Pinned by: tests/study_timing.rs
 
+mod center_offset;
 mod force_delay;
 mod tempo;
 
+pub(super) use center_offset::{CenterOffset, MOST_OFFSET_M};
 pub(super) use force_delay::{ForceDelay, PlateTiming};
 pub(super) use tempo::Tempo;
 
