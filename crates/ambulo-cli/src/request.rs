@@ -259,8 +259,6 @@ impl Request {
         let mut reader = Deserializer::from_slice(text);
         let verb = Verb::deserialize(&mut reader).map_err(|error| {
             let place = json_place(text, &|text| Verb::deserialize(&mut Deserializer::from_slice(text)).err());
-            let place = Some(place).filter(|place| !place.is_empty());
-            let place = place.map_or_else(String::new, |place| format!("`{place}`: "));
             let wrong = error.to_string();
             let line = format!(" at line {} column {}", error.line(), error.column());
             let wrong = wrong.strip_suffix(&line).filter(|_| !is_seen).unwrap_or(&wrong);

@@ -18,8 +18,8 @@ enum Entry {
     Number(usize),
 }
 
-/// The keys that lead to the first error in a text, as in `forces.trials[2].mass`; empty at the top. `read` is the
-/// reader of the text.
+/// The beginning of a message about the first error in a text: the keys that lead there, as in
+/// "`forces.trials[2].mass`: "; empty at the top. `read` is the reader of the text.
 #[must_use]
 pub fn json_place(text: &[u8], read: &dyn Fn(&[u8]) -> Option<Error>) -> String {
     let (ends, _) = scan(text);
@@ -40,7 +40,7 @@ pub fn json_place(text: &[u8], read: &dyn Fn(&[u8]) -> Option<Error>) -> String 
         };
         debug_assert!(added.is_ok(), "a string takes all text");
     }
-    path
+    if path.is_empty() { path } else { format!("`{path}`: ") }
 }
 
 /// The ends of all words of a text (strings, numbers, brackets), and the entries that are open at its end.

@@ -42,7 +42,9 @@ impl TryFrom<u8> for Day {
 }
 
 fn place(text: &str) -> String {
-    json_place(text.as_bytes(), &|text| serde_json::from_slice::<Run>(text).err())
+    let found = json_place(text.as_bytes(), &|text| serde_json::from_slice::<Run>(text).err());
+    let keys = found.strip_prefix('`').and_then(|found| found.strip_suffix("`: "));
+    keys.unwrap_or(&found).to_owned()
 }
 
 #[test]

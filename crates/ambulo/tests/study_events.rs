@@ -34,6 +34,11 @@ fn lists_that_force_plates_deny_are_told_from_those_they_confirm() {
     let late = found(&changed(|_, event| event.time_s += 0.1)).unwrap();
     assert!(late.contains("5 events are 100 ms late"), "{late}");
     assert!(found(&changed(|_, event| event.time_s -= 0.08)).unwrap().contains("80 ms early"));
+    // 50 ms is the limit, and an event more than 150 ms away is another one.
+    assert_eq!(found(&changed(|_, event| event.time_s += 0.049)), None);
+    assert!(found(&changed(|_, event| event.time_s += 0.051)).is_some());
+    assert!(found(&changed(|_, event| event.time_s -= 0.149)).is_some());
+    assert_eq!(found(&changed(|_, event| event.time_s -= 0.151)), None);
     // A single event decides nothing, nor does a list of other steps.
     assert_eq!(contradiction(&measured()[..1], &changed(|_, event| event.time_s += 0.1)), None);
     assert_eq!(found(&changed(|_, event| event.time_s += 3.0)), None);

@@ -35,7 +35,7 @@ pub struct Fall {
 }
 
 impl Fall {
-    /// What the muscles did before the fall.
+    /// Whether a joint was at the strength of its muscles before the fall, in words.
     pub(crate) fn cause(&self, model: &Model) -> String {
         self.at_limit.map_or("no torque was at its limit".to_owned(), |(id, since_s)| {
             format!(

@@ -242,7 +242,7 @@ fn solved(
     judged(movement_problem.solve_near_guess()?, walk, movement, outline)
 }
 
-/// What it costs that a movement begins and ends elsewhere than it should.
+/// The part of the cost for distances from where the movement should begin and end.
 fn cost_of_ends(problem: &Problem, unknowns: &[f64]) -> f64 {
     problem.costs(unknowns).iter().filter(|(name, _)| name == END).map(|(_, cost)| cost).sum()
 }

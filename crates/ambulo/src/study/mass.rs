@@ -308,7 +308,7 @@ impl BodyMass {
         (index / BODY_MASS_INDEX[1]).max(BODY_MASS_INDEX[0] / index)
     }
 
-    /// What is unusual in a stature [m] and the mass, in a sentence.
+    /// A sentence about a mass that is too large or too small for a stature [m].
     pub(super) fn unusual(&self, height_m: f64) -> String {
         let ([least, most], index) = (BODY_MASS_INDEX, self.kg / (height_m * height_m));
         format!(
