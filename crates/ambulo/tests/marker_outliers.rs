@@ -2,11 +2,14 @@
 
 use crate::common::random::Random;
 use crate::marker_data::{Subject, gait2392, rajagopal};
+use crate::plug_in_gait::PEOPLE;
+use crate::shared_data::data;
 use ambulo::findings::{Code, Findings};
 use ambulo::kinematics::marker_fit::{FitSettings, MarkerFit, OutlierDetection, fit_markers};
 use ambulo::model::CoordinateKind;
 use ambulo::motion::MarkerRecording;
 use ambulo::spatial::Vec3;
+use ambulo::study::{self, Outcome, QualityState, Recording, Settings};
 
 fn fitted(subject: &Subject, markers: &MarkerRecording, outliers: OutlierDetection) -> (MarkerFit, Findings) {
     let mut findings = Findings::default();
@@ -30,6 +33,35 @@ fn largest_difference(subject: &Subject, a: &MarkerFit, b: &MarkerFit) -> (f64, 
         }
     }
     largest
+}
+
+/// Each jump that is suspected takes many steps; of a hundred markers, noise of a few millimetres makes some jump in
+/// most frames.
+#[test]
+fn noise_on_a_hundred_markers_does_not_lose_the_body() {
+    let Some(data) = data() else { return };
+    let person = &PEOPLE[0];
+    let (clean, _) = person.computed(&data);
+    let mut r = Random::new(1);
+    for deviation_m in [0.002, 0.003, 0.005] {
+        let mut source = person.source(&data);
+        let Recording::Markers(markers) = &mut source.recording else { panic!("no markers") };
+        // The sum of twelve numbers from -1/2 to 1/2 has the variance 1.
+        let mut normal = || (0..12).map(|_| r.between(-0.5, 0.5)).sum::<f64>() * deviation_m;
+        let paths = markers.trial.recording.markers.markers.iter_mut();
+        paths.flat_map(|path| &mut path.positions).for_each(|p| *p += Vec3::new(normal(), normal(), normal()));
+        let noisy = study::run(source, &Settings::default(), &mut Findings::default()).unwrap();
+        for name in ["hip_flexion_r", "knee_angle_l", "ankle_angle_r"] {
+            let [a, b] = [clean, &noisy].map(|outcome: &Outcome| {
+                outcome.analysis.trajectory.values(outcome.body.coordinate(name).unwrap()).to_vec()
+            });
+            let square = a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64;
+            let apart_deg = square.sqrt().to_degrees();
+            println!("noise of {deviation_m} m: {name} {apart_deg:.2} degrees");
+            assert!(apart_deg < 2.0, "noise of {deviation_m} m: {name} {apart_deg} degrees");
+        }
+        assert_eq!(noisy.quality.state, QualityState::Good, "{deviation_m}: {:?}", noisy.quality.reasons);
+    }
 }
 
 fn names(subject: &Subject) -> Vec<usize> {

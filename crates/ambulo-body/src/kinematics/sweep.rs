@@ -244,7 +244,8 @@ fn along<const N: usize>(frame: &M3<N>, axis: &Axis) -> V3<N> {
 }
 
 /// Position, velocity and acceleration relative to F, in world axes, of an origin of M that slides as M turns; `None`
-/// if it does not.
+/// if it does not. On an ellipsoid this is the point p = radii * n, where n is the z axis of M: ṅ = w × n,
+/// n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
 #[inline(always)]
 fn slide_with_rotation<const N: usize>(
     segment: &Segment,
@@ -256,27 +257,13 @@ fn slide_with_rotation<const N: usize>(
 ) -> Option<[V3<N>; 3]> {
     let radii = segment.spherical.as_ref().and_then(|spherical| spherical.radii);
     match (radii, segment.arc) {
-        (Some(radii), _) => Some(slide_on_ellipsoid(radii, frame, rotation, parent, omega, alpha)),
+        (Some(radii), _) => Some(axis_in_motion(2, rotation, parent, omega, alpha).map(|n| {
+            let V3([x, y, z]) = frame.turn_back(n);
+            frame.turn(V3([x * radii[0], y * radii[1], z * radii[2]]))
+        })),
         (None, Some(length)) => Some(slide_on_arc(length, frame, rotation, parent, omega, alpha)),
         (None, None) => None,
     }
-}
-
-/// Position, velocity and acceleration relative to F, in world axes, of the point p = radii * n on an ellipsoid, where
-/// n is the z axis of M: ṅ = w × n, n̈ = ẇ × n + w × (w × n), with w the angular velocity of M in F.
-#[inline(always)]
-fn slide_on_ellipsoid<const N: usize>(
-    radii: Vec3,
-    frame: &M3<N>,
-    rotation: &M3<N>,
-    parent: &BodyState<N>,
-    omega: V3<N>,
-    alpha: V3<N>,
-) -> [V3<N>; 3] {
-    axis_in_motion(2, rotation, parent, omega, alpha).map(|n| {
-        let V3([x, y, z]) = frame.turn_back(n);
-        frame.turn(V3([x * radii[0], y * radii[1], z * radii[2]]))
-    })
 }
 
 /// An axis of M with its rate and acceleration relative to F, in world axes.

@@ -8,7 +8,9 @@
 //!
 //! 1. A body is lost if the number of linear solves ended in more than [`FEW`] frames, or most of the markers are
 //!    [`FAR`] from it in more than [`FAR_SHARE`] of the frames. Then a few frames are fitted from nothing, and the
-//!    sequence starts again at the one in which the markers agree best with the body.
+//!    sequence starts again at the one in which the markers agree best with the body. If it is lost again, it starts
+//!    there without looking for jumps, each of which takes many solves: noise of 3 mm makes one of a hundred markers
+//!    jump.
 //! 2. If the markers of a segment are [`FAR`] from it in many frames, each angle of its joint and of the two joints
 //!    above is turned by a half and by quarter turns in the worst frame. If that brings the segment to half the
 //!    distance at a lower cost, the sequence starts again from this posture.
@@ -141,6 +143,10 @@ pub(super) fn follow(
         let start = Start { frame, posture: None, default };
         let how = "started again where the markers agree best with the body";
         judged = attempt(problem, frames, outliers, (start, how), judged, &mut tried);
+        if judged.is_lost() {
+            let how = "started again without looking for markers that jump";
+            judged = attempt(problem, frames, OutlierDetection::Off, (start, how), judged, &mut tried);
+        }
     }
     for _ in 0..MOST_UNFOLDED {
         let Some((frame, node)) = most_folded(problem, frames) else { break };
