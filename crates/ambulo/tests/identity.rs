@@ -244,7 +244,8 @@ fn a_pair_that_is_exchanged_throughout_is_exchanged_back() {
 #[test]
 fn two_markers_of_a_leg_that_are_exchanged_in_one_recording_are_exchanged_back_there() {
     let Some(data) = data() else { return };
-    for person in &PEOPLE {
+    // A woman and a small child.
+    for person in [&PEOPLE[0], &PEOPLE[3]] {
         let (clean, _) = person.computed(&data);
         for [a, b] in [["LKNE", "LTHI"], ["RANK", "RTIB"], ["LHEE", "LTOE"], ["RANK", "RHEE"]] {
             for (in_walk, which) in [(true, "whole recording"), (false, "whole standing trial")] {

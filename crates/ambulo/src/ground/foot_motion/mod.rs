@@ -134,14 +134,22 @@ pub(crate) fn foot_motion_of_landmarks(
     landmarks: &Landmarks,
     findings: &mut Findings,
 ) -> FootMotion {
+    let found = walking_forwards(markers, landmarks, findings);
+    match markers.times[..] {
+        [first_s, .., last_s] if found.walking_speed_m_s < -SLOWEST_WALK_M_S => {
+            let back = walking_forwards(&played_back(markers), landmarks, &mut Findings::default());
+            back.played_back(first_s + last_s)
+        }
+        _ => found,
+    }
+}
+
+/// The events of a person who walks forwards, or stands.
+fn walking_forwards(markers: &MarkerRecording, landmarks: &Landmarks, findings: &mut Findings) -> FootMotion {
     let feet: Vec<Foot> = Side::BOTH.into_iter().map(|side| foot(markers, landmarks, side)).collect();
     let pelvis = mean_path(markers, &landmarks.pelvis());
     let floor = floor_speed(markers, &feet);
     let walking = pelvis.as_ref().map_or(f64::NAN, |p| mean_rate(markers, p) - floor);
-    if let ([first_s, .., last_s], true) = (&markers.times[..], walking < -SLOWEST_WALK_M_S) {
-        let forwards = foot_motion_of_landmarks(&played_back(markers), landmarks, findings);
-        return forwards.played_back(first_s + last_s);
-    }
     let mut by_method = Vec::new();
     for method in EventMethod::ALL {
         let mut events: Vec<Event> = Vec::new();

@@ -154,17 +154,23 @@ pub fn footfalls_at(
 /// Detects the stances from their signals.
 pub(super) fn detect(signals: &Signals, off_speed: OffSpeed, findings: &mut Findings) -> Footfalls {
     let belt = Belt::new(signals);
-    if signals.is_backwards(belt.overall) {
-        let ends_s = signals.grid.start_s + signals.grid.end_s();
-        return detect(&signals.played_back(), off_speed, findings).played_back(ends_s);
+    if !signals.is_backwards(belt.overall) {
+        return detect_forwards(signals, &belt, off_speed, findings);
     }
-    let walking = stationary::walking_speed(signals, &belt);
+    let back = signals.played_back();
+    let ends_s = signals.grid.start_s + signals.grid.end_s();
+    detect_forwards(&back, &Belt::new(&back), off_speed, findings).played_back(ends_s)
+}
+
+/// Detects the stances of a person who does not walk backwards.
+fn detect_forwards(signals: &Signals, belt: &Belt, off_speed: OffSpeed, findings: &mut Findings) -> Footfalls {
+    let walking = stationary::walking_speed(signals, belt);
     let mut runs: Vec<_> =
-        signals.feet.iter().map(|foot| stationary::stationary(signals, &belt, &walking, foot)).collect();
+        signals.feet.iter().map(|foot| stationary::stationary(signals, belt, &walking, foot)).collect();
     stationary::keep_loaded(signals, &mut runs);
     let mut falls = Vec::new();
     for (foot, runs) in signals.feet.iter().zip(&runs) {
-        let search = Search { signals, belt: &belt, walking: &walking, foot, off_speed };
+        let search = Search { signals, belt, walking: &walking, foot, off_speed };
         let mut of_foot: Vec<Footfall> = (0..runs.len()).map(|i| footfall(&search, runs, i)).collect();
         put_in_order(&mut of_foot);
         falls.extend(of_foot);

@@ -330,14 +330,25 @@ pub(super) fn predict_frames(
     settings: &PredictSettings,
     wanted: Range<usize>,
 ) -> Result<Prediction, PredictError> {
-    let body_scale = body_scale(model)?;
-    if motion.is_backwards(body_scale.up) {
-        let (footfalls, frames) = (motion.footfalls.clone(), motion.grid.frames);
-        let settings = PredictSettings { prescribed: settings.prescribed.played_back(), ..settings.clone() };
-        let wanted = range_played_back(&wanted, frames);
-        let forwards = predict_frames(model, soles, motion.played_back(), &settings, wanted)?;
-        return Ok(forwards.played_back(footfalls));
+    if !motion.is_backwards(model.up()) {
+        return predict_forwards(model, soles, motion, settings, wanted);
     }
+    let (footfalls, frames) = (motion.footfalls.clone(), motion.grid.frames);
+    let settings = PredictSettings { prescribed: settings.prescribed.played_back(), ..settings.clone() };
+    let wanted = range_played_back(&wanted, frames);
+    let forwards = predict_forwards(model, soles, motion.played_back(), &settings, wanted)?;
+    Ok(forwards.played_back(footfalls))
+}
+
+/// The forces under a person who does not walk backwards.
+fn predict_forwards(
+    model: &Model,
+    soles: &BySide<Sole>,
+    motion: KnownMotion,
+    settings: &PredictSettings,
+    wanted: Range<usize>,
+) -> Result<Prediction, PredictError> {
+    let body_scale = body_scale(model)?;
     let KnownMotion { grid, geometry, total, footfalls } = motion;
     if let Some(person) = &settings.person {
         person.check(model)?;
