@@ -34,8 +34,6 @@ const TURN_DEG: f64 = 20.0;
 const SIDEWAYS_DEG: f64 = 60.0;
 /// Plausible heights of the markers, from a set for the legs of a child to a tall adult with raised arms [m].
 const HEIGHT_M: [f64; 2] = [0.35, 3.0];
-/// Longest extent of the markers that a factor may give [m]; stray markers lie around a person.
-const LONGEST_M: f64 = 6.0;
 /// Factors of wrong units.
 const UNIT_FACTORS: [f64; 6] = [0.001, 0.01, 0.1, 10.0, 100.0, 1000.0];
 /// Directions are averaged only if the mean of the unit vectors is at least this long.
@@ -124,7 +122,7 @@ pub fn laboratory_of_landmarks(
     findings: &mut Findings,
 ) -> Laboratory {
     let up = upward(markers, landmarks, plates, findings);
-    let scale = scale(markers, up, findings);
+    let scale = scale(markers, landmarks, up, findings);
     let travel = travel(markers, landmarks, plates, up, scale, findings);
     let (forward, heading) = forward(
         travel.map(|travel| travel.direction),
@@ -212,7 +210,7 @@ fn longest_axis(markers: &MarkerRecording) -> Vec3 {
 
 // ---- unit ----
 
-fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
+fn scale(markers: &MarkerRecording, landmarks: &Landmarks, up: Vec3, findings: &mut Findings) -> f64 {
     let Some(height) = median((0..markers.frames()).filter_map(|i| extent(markers, i, up))) else {
         return 1.0;
     };
@@ -220,11 +218,10 @@ fn scale(markers: &MarkerRecording, up: Vec3, findings: &mut Findings) -> f64 {
     if fits(1.0) || height <= 0.0 {
         return 1.0;
     }
-    // Who lies is long.
-    let frames = 0..markers.frames();
-    let length = |axis: Vec3| median(frames.clone().filter_map(|i| extent(markers, i, axis))).unwrap_or(0.0);
-    let longest = [Vec3::x(), Vec3::y(), Vec3::z()].map(length).into_iter().fold(height, f64::max);
-    let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f) && longest * f <= LONGEST_M) else {
+    // A factor of ten is a usual unit for a whole body only: feet or a pelvis alone span a few centimetres.
+    let is_whole = body_axis(markers, landmarks).is_some();
+    let is_usual = |f: f64| is_whole || !(0.05..20.0).contains(&f);
+    let Some(factor) = UNIT_FACTORS.into_iter().find(|&f| fits(f) && is_usual(f)) else {
         let message = format!(
             "the markers span {height:.3} m from lowest to highest, which is not a standing person in any unit; \
              lengths were not changed"
