@@ -10,6 +10,7 @@ use crate::args::{
 use crate::caller::Caller;
 use crate::failure::Failure;
 use crate::{Completion, commands};
+use ambulo::findings::Findings;
 use ambulo::job::Job;
 use ambulo_results::{Convention, json_place};
 use anyhow::{Context, Result, anyhow};
@@ -215,8 +216,13 @@ pub enum Answer {
     Results(Box<commands::Results>),
     /// The folder of the tables of a batch.
     Folder(PathBuf),
-    /// The calibration of a person, in the form of its file.
-    Person(Vec<u8>),
+    /// The calibration of a person.
+    Person {
+        /// The content of its file.
+        file: Vec<u8>,
+        /// Findings of the trials; messages begin with the name of the trial.
+        findings: Findings,
+    },
 }
 
 impl Request {
@@ -309,8 +315,9 @@ impl Request {
                 commands::forces::compute(&request.job, request.outputs(), caller)?.into()
             }
             Verb::Calibrate(request) => {
-                let person = commands::calibrate::compute(request, Handling::quiet(Existing::Kept).print, caller)?;
-                return Ok(Answer::Person(person.to_toml().into_bytes()));
+                let print = Handling::quiet(Existing::Kept).print;
+                let (person, findings) = commands::calibrate::compute(request, print, caller)?;
+                return Ok(Answer::Person { file: person.to_toml().into_bytes(), findings });
             }
             Verb::Validate(args) => commands::validate::compute(args, caller)?.into(),
             Verb::Batch(request) => {

@@ -1,6 +1,6 @@
 //! The verbs of the command as functions: requests with the defaults, checks and messages of the command.
 
-use crate::failure::exception;
+use crate::failure::{exception, listed};
 use crate::request::{Given, typed};
 use crate::results::Results;
 use ambulo_cli::{Answer, CalibrateRequest, Caller, Existing, ForcesRequest, Outputs, Request};
@@ -53,8 +53,8 @@ pub(crate) fn forces<'py>(py: Python<'py>, options: &Bound<'py, PyDict>, files: 
     answered(py, ForcesRequest { job, convention, keep, ..ForcesRequest::default() }, Existing::Kept, &files)
 }
 
-/// The calibration of a person: the content of the file of `ambulo calibrate`. `measured` has the tables of forces and
-/// the external loads of the trials, or none; the options are those of every trial.
+/// The calibration of a person: the content of the file of `ambulo calibrate`, and the findings. `measured` has the
+/// tables of forces and the external loads of the trials, or none; the options are those of every trial.
 #[pyfunction]
 pub(crate) fn calibrate<'py>(
     py: Python<'py>,
@@ -108,7 +108,7 @@ fn answered<'py>(
     match computed.map_err(|failure| exception(py, failure))? {
         Answer::Results(results) => Ok(Bound::new(py, Results(*results))?.into_any()),
         Answer::Folder(folder) => folder.into_bound_py_any(py),
-        Answer::Person(bytes) => Ok(PyBytes::new(py, &bytes).into_any()),
+        Answer::Person { file, findings } => (PyBytes::new(py, &file), listed(&findings)).into_bound_py_any(py),
     }
 }
 

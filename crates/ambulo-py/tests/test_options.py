@@ -164,6 +164,10 @@ def test_a_calibration_is_the_file_of_the_command_and_corrects_a_prediction(file
     assert np.array_equal(by_file.grf.to_numpy(), by_value.grf.to_numpy())
     plain = ambulo.forces(files / "walk.c3d", static=files / "standing.c3d", predict=True, **size)
     assert not np.array_equal(by_file.grf.to_numpy(), plain.grf.to_numpy())
+    with pytest.warns(ambulo.AmbuloWarning, match="walk.c3d"):
+        light = ambulo.calibrate_person(files / "walk.c3d", static=files / "standing.c3d", mass=50, height=1.75)
+    assert any(finding["severity"] == "warning" and "walk.c3d: " in finding["message"] for finding in light.findings)
+    assert pickle.loads(pickle.dumps(light)).findings == light.findings
     with pytest.raises(ambulo.InputError, match="walk.mot"):
         ambulo.calibrate_person([files / "walk.mot"], files / "figure.osim")
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from ambulo import _ambulo
 from ambulo._batch import Batch
-from ambulo._errors import InputError
+from ambulo._errors import InputError, warn
 from ambulo._inputs import Inputs, listed, numbers, of_trials
 from ambulo._person import Person
 from ambulo._recording import content
@@ -377,7 +377,7 @@ def calibrate_person(
     Returns
     -------
     Person
-        For `forces(person=...)`; `Person.save` writes the file of the command.
+        For `forces(person=...)`; `Person.save` writes the file of the command, `Person.findings` has what was found in the trials.
 
     Raises
     ------
@@ -385,6 +385,11 @@ def calibrate_person(
         A file that cannot be read.
     InputError
         Trials without walking, plates or whole stances, or of different persons; the message is the one of the command.
+
+    Warns
+    -----
+    AmbuloWarning
+        Once for each kind of warning in `Person.findings`.
 
     Notes
     -----
@@ -417,7 +422,9 @@ def calibrate_person(
         "max_gap": max_gap,
         "force_delay": force_delay,
     }
-    return Person(_ambulo.calibrate(paths, measured, options, inputs.files()))
+    data, findings = _ambulo.calibrate(paths, measured, options, inputs.files())
+    warn(findings, 2)
+    return Person(data, findings)
 
 
 def validate(

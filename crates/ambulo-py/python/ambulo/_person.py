@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from typing import Any
+
+from ambulo._errors import Finding
 
 
 class Person:
@@ -15,14 +18,18 @@ class Person:
     ----------
     data : bytes
         The content of the file (``.toml``): the mean difference over the stance for each foot, and the size of the person.
+    findings : list of dict
+        Warnings and notes about the trials; each message begins with the name of its trial. Not in the file.
     """
 
-    __slots__ = ("data",)
+    __slots__ = ("data", "findings")
 
     data: bytes
+    findings: list[Finding]
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: bytes, findings: Iterable[Finding] = ()) -> None:
         self.data = bytes(data)
+        self.findings = list(findings)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the file.
@@ -40,5 +47,5 @@ class Person:
         return f"<Person: {len(self.data)} bytes>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the content."""
-        return Person, (self.data,)
+        """Pickle the content and the findings."""
+        return Person, (self.data, self.findings)
