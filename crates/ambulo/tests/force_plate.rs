@@ -324,6 +324,14 @@ fn what_no_load_does_to_a_channel_is_bridged_and_reported() {
             assert!(off < if span.contains(&i) { 50.0 } else { ROUNDING }, "{name} {i}: {off} N");
         }
     }
+    // A loose plug in the moment: the force stays as it was.
+    let mut file = sine(1000.0);
+    file.channels[4] = (0..300).map(|i| -0.1 * file.channels[2][i]).collect();
+    file.channels[4][150..153].fill(9e4);
+    let (plate, findings) = read_fast(&file);
+    let said = findings.as_slice().iter().find(|finding| finding.code == Code::PlatesExcursion).unwrap();
+    assert!(said.message.contains("channel 5 of plate 1 jumps away and back, first at 0.150 s"), "{said:?}");
+    assert!((0..300).all(|i| (plate.vertical(i) - clean.vertical(i)).abs() < ROUNDING));
     // Every second sample of noise jumps back, and a step stays where it is.
     let noise = |i: usize| f64::from(u8::from(i.is_multiple_of(2))) - 0.5;
     let mut file = sine(1000.0);

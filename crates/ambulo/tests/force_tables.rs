@@ -1,8 +1,9 @@
-//! What no load does to a force of a table: spikes are bridged and reported, and columns that never move are named.
+//! Faults of a force in a table: spikes are bridged and reported, and columns that never move are named.
 //!
 //! | claim | tolerance |
 //! |---|---|
 //! | outside of a bridged spike force, point and moment are as recorded; inside they are a straight line | exact |
+//! | a spike along each axis is bridged | 2 N |
 //! | an excursion of 50 ms is bridged, one of 51 ms is a load | exact |
 //! | clean tables, and those of a plane, are silent | exact |
 
@@ -87,6 +88,21 @@ fn a_spike_in_a_table_is_bridged_with_its_point_and_its_moment() {
         assert!((own.moment[i] - expected(&|k| other.moment[k])).norm() < 1e-9, "moment {i}");
     }
     assert_eq!(found[1], clean[1]);
+}
+
+#[test]
+fn a_spike_along_any_axis_is_bridged() {
+    let (clean, _) = read(columns());
+    for (column, axis, value) in [("left_vx", "x", 900.0), ("left_vz", "z", -700.0)] {
+        let mut spoiled = columns();
+        set(&mut spoiled, column, 600..604, value);
+        let (found, findings) = read(spoiled);
+        let said = message(&findings, Code::PlatesExcursion).unwrap();
+        assert!(said.contains(&format!("the force `left` along {axis} jumps away and back")), "{said}");
+        // A straight line over 5 ms is nearly the half sine.
+        let off = (0..FRAMES).map(|i| (found[1].force[i] - clean[1].force[i]).norm()).fold(0.0, f64::max);
+        assert!(off < 2.0, "{column}: {off} N");
+    }
 }
 
 #[test]

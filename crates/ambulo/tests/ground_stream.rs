@@ -2,6 +2,7 @@
 //!
 //! | claim | limit and its reason |
 //! |---|---|
+//! | a walk backwards: stream - whole motion | the same |
 //! | recordings, after the first 0.8 s: stream - whole recording | 3, 8, 3 % of body weight forward, up, right: half as much again as the worst of nine |
 //! | stream - plates | vertical error at most 4 % of body weight above that of the whole recording |
 //! | without a delay | error at least half as large again: the following motion is not known |
@@ -12,6 +13,7 @@
 //! delays takes a minute and is printed where `AMBULO_DELAYS=1` is set.
 
 use crate::footfall_trials::{Recorded, everything};
+use crate::walking_backwards::reversed;
 use crate::walks;
 use ambulo::analysis::feasibility::Person;
 use ambulo::findings::Findings;
@@ -80,6 +82,19 @@ fn apart(streamed: &[StreamFrame], others: &[BodyForces], from_s: f64) -> Vec<Ve
         }
     }
     out
+}
+
+#[test]
+fn a_walk_backwards_is_streamed_as_it_is_predicted_whole() {
+    let walk = walk();
+    let model = &walk.human.model;
+    let backwards = reversed(model, &walk.trajectory);
+    let batch = whole(model, &backwards, &Person::of_human(&walk.human).soles);
+    let streamed = pushed(stream_of(walk, &unsmoothed()), &frames_of(&backwards));
+    let off =
+        rms(&apart(&streamed, &batch.ground.bodies, SETTLED_S)) * (100.0 / (model.mass() * model.gravity().norm()));
+    println!("stream - whole, backwards {off:.2?} % BW");
+    assert!(off.x < 3.0 && off.y < 8.0 && off.z < 3.0, "{off}");
 }
 
 #[test]

@@ -5,18 +5,31 @@
 //! |---|---|
 //! | each plate carries the same foot, and as cleanly, as forwards | exact |
 //! | with the stances given, the predicted forces are those of the walk forwards | 1e-9 of them |
+//! | on a treadmill the stances are those forwards, and the belt moves the other way | 1e-9 s and m/s |
 //! | with the stances found, the vertical force differs from the plates by | at most a tenth more, mean of all feet |
 
+use crate::footfall_trials::everything;
 use crate::plug_in_gait::PEOPLE;
 use crate::shared_data::data;
 use ambulo::findings::{Code, Findings};
-use ambulo::ground::footfalls::{Footfall, Footfalls};
+use ambulo::ground::footfalls::{Footfall, Footfalls, footfalls};
 use ambulo::ground::plates::ContactQuality;
 use ambulo::ground::predict::{PredictSettings, Prescribed, predict};
 use ambulo::kinematics::Trajectory;
-use ambulo::model::Side;
+use ambulo::model::{Model, Side};
 use ambulo::study::{self, GroundSettings, Outcome, Recording, Settings, Source, Tracking};
 use std::collections::BTreeSet;
+
+/// The motion from its end to its beginning.
+pub(crate) fn reversed(model: &Model, trajectory: &Trajectory) -> Trajectory {
+    let back = |column: &[Vec<f64>; 3]| {
+        let [mut q, mut qd, mut qdd] = column.clone();
+        [&mut q, &mut qd, &mut qdd].into_iter().for_each(|values| values.reverse());
+        qd.iter_mut().for_each(|rate| *rate = -*rate);
+        [q, qd, qdd]
+    };
+    Trajectory::new(model, trajectory.grid(), trajectory.columns().iter().map(back).collect()).unwrap()
+}
 
 /// The recording from its end to its beginning.
 fn played_back(mut source: Source) -> Source {
@@ -74,13 +87,7 @@ fn with_known_stances_the_predicted_forces_are_those_of_the_walk_forwards() {
     let ignored = &mut Findings::default();
     let forwards = predict(model, trajectory, soles, &settings, ignored).unwrap();
     let grid = trajectory.grid();
-    let back = |column: &[Vec<f64>; 3]| {
-        let [mut q, mut qd, mut qdd] = column.clone();
-        [&mut q, &mut qd, &mut qdd].into_iter().for_each(|values| values.reverse());
-        qd.iter_mut().for_each(|rate| *rate = -*rate);
-        [q, qd, qdd]
-    };
-    let reversed = Trajectory::new(model, grid, trajectory.columns().iter().map(back).collect()).unwrap();
+    let reversed = reversed(model, trajectory);
     let at = |time_s: f64| grid.start_s + grid.end_s() - time_s;
     let turned = |fall: &Footfall| Footfall { strike_s: fall.off_s.map(at), off_s: fall.strike_s.map(at), ..*fall };
     let falls = forwards.footfalls.falls.iter().rev().map(turned).collect();
@@ -97,6 +104,35 @@ fn with_known_stances_the_predicted_forces_are_those_of_the_walk_forwards() {
             assert!((own.moment[frame] - other.moment[same]).norm() < 1e-9 * weight_n, "{side} {frame}");
             let deviation = own_deviation.force[frame] - other_deviation.force[same];
             assert!(deviation.norm() < 1e-9 * weight_n, "{side} {frame}");
+        }
+    }
+}
+
+#[test]
+fn on_a_treadmill_the_belt_moves_the_other_way() {
+    if data().is_none() {
+        return;
+    }
+    let on_belt: Vec<_> = everything().iter().filter(|recorded| recorded.name.starts_with("gait2392")).collect();
+    assert!(!on_belt.is_empty());
+    for recorded in on_belt {
+        let (model, trajectory) = (&recorded.model, recorded.trajectory(6.0));
+        let found = |trajectory| footfalls(model, trajectory, &recorded.soles, &mut Findings::default());
+        let (forwards, backwards) = (found(&trajectory), found(&reversed(model, &trajectory)));
+        assert!(forwards.floor_velocity.norm() > 1.0, "{}", recorded.name);
+        assert!((forwards.floor_velocity + backwards.floor_velocity).norm() < 1e-9, "{}", recorded.name);
+        let grid = trajectory.grid();
+        let at = |time_s: f64| grid.start_s + grid.end_s() - time_s;
+        assert_eq!(forwards.falls.len(), backwards.falls.len(), "{}", recorded.name);
+        for fall in &forwards.falls {
+            let is_same = |other: &&Footfall| {
+                let is_near = |own: Option<f64>, other: Option<f64>| match (own, other) {
+                    (Some(own), Some(other)) => (own - at(other)).abs() < 1e-9,
+                    (own, other) => own.is_none() && other.is_none(),
+                };
+                other.side == fall.side && is_near(other.strike_s, fall.off_s) && is_near(other.off_s, fall.strike_s)
+            };
+            assert_eq!(backwards.falls.iter().filter(is_same).count(), 1, "{}: {fall:?}", recorded.name);
         }
     }
 }
