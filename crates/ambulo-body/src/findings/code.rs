@@ -494,8 +494,7 @@ codes! {
         "Look for a loose cable; the force there is an interpolation.";
     PlatesStillChannel "plates.still_channel" Warning
         "A channel of a loaded force plate, or a component of a force of a table, has one value all the time, so a \
-         part \
-         of the force is missing."
+         part of the force is missing."
         "Check cables, amplifier and the order of the channels in the file.";
     PlatesOriginTurned "plates.origin_turned" Note
         "ORIGIN of a plate has the opposite sign, a usual error of programs, and was reversed."
@@ -550,8 +549,7 @@ codes! {
         "State the correction of the plate, or correct the sign of the channel or column.";
     PlatesMisplaced "plates.misplaced" Warning
         "The centres of pressure lie to one side of both feet, or not where the motion needs them along the foot: \
-         plates or \
-         markers are not where the file states, or moments of a plate are wrong."
+         plates or markers are not where the file states, or moments of a plate are wrong."
         "Correct FORCE_PLATFORM:CORNERS in the file, or the places of the force table.";
     PlatesCrossTalk "plates.cross_talk" Warning
         "A plate shows a small load under no foot while another plate is loaded: cross-talk; it was left out."

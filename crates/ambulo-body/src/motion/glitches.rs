@@ -1,5 +1,5 @@
-//! Detects what no load does to a channel: excursions that begin and end with a jump (a spike, a loose plug), and
-//! channels that never move.
+//! Detects two faults of a channel that no load explains: excursions that begin and end with a jump (a spike, a loose
+//! plug), and channels that never move.
 //!
 //! A foot loads a plate by at most about 0.2 body weights in a millisecond, and takes more than 50 ms to load and
 //! unload it. A jump is a change from one sample to the next by more than a quarter of the range of the channel and
@@ -62,11 +62,12 @@ fn smallest_jump(samples: &[f64], changes: &[f64]) -> Option<f64> {
 pub(super) fn report(what: &str, spans: &[Range<usize>], (times, rate_hz): (&[f64], f64), findings: &mut Findings) {
     let (Some(first), Some(longest)) = (spans.first(), spans.iter().map(Range::len).max()) else { return };
     let message = format!(
-        "{what} jumps away and back, first at {:.3} s, {} in all, for {:.1} ms at most: no load does this; straight \
-         lines were drawn instead. hint: look for a loose cable",
+        "{what} jumps away and back, first at {:.3} s, {} in all, for {:.1} ms at most: no load comes and goes within \
+         {:.0} ms; straight lines were drawn instead. hint: look for a loose cable",
         times[first.start],
         counted(spans.len(), "time"),
-        1e3 * longest as f64 / rate_hz
+        1e3 * longest as f64 / rate_hz,
+        1e3 * LONGEST_S
     );
     findings.report(Code::PlatesExcursion, message);
 }

@@ -36,7 +36,7 @@ impl UnmeasuredLeg {
         Some(UnmeasuredLeg { side, is_predicted, why: idle.lost(side)?.to_owned() })
     }
 
-    /// What is wrong, in a sentence.
+    /// Which leg has no measured force, in a sentence.
     pub(super) fn message(&self) -> String {
         let UnmeasuredLeg { side, is_predicted, why } = self;
         let rest = if *is_predicted { "rest on predicted forces" } else { "are unknown" };

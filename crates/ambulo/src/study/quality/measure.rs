@@ -191,7 +191,7 @@ impl Measure {
             Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::StillChannels => "number of loaded force plates with a channel that has one value all the time",
+            Measure::StillChannels => "number of measured forces with a channel that has one value all the time",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }

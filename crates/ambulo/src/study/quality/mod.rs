@@ -149,7 +149,7 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) mass: &'a BodyMass,
     /// Stature [m].
     pub(super) height_m: f64,
-    /// Messages about force plates with channels that never move.
+    /// Messages about force plates, and forces of a table, with channels that never move.
     pub(super) still_channels: Vec<String>,
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,

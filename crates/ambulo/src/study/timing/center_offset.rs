@@ -6,9 +6,9 @@
 //!   d = (up × M) / F    from the measured one,
 //!
 //! whatever gait the person has. Judged is the median of the component along the foot, over all times in which a foot
-//! carries the body alone on one force plate, and how far two plates differ in it. None of 60 clean recordings has 40
-//! mm of either. Of 66 copies with one plate 60 mm forward or backward 55 were named; in most others the moved plate
-//! seemed to be under both feet and was left out.
+//! carries the body alone on one force plate, and how far two plates differ in it. 40 mm of either are more than clean
+//! recordings have; a plate that is 60 mm forward or backward is named for all seven people of the test. A plate that
+//! then seems to be under both feet is left out before, and cannot be judged.
 //!
 //! Pinned by: tests/study_timing.rs
 
@@ -86,7 +86,7 @@ impl CenterOffset {
         }
     }
 
-    /// What is wrong, in a sentence.
+    /// How far the centre of pressure is from where the motion needs it, in a sentence.
     pub(in crate::study) fn message(&self) -> String {
         let one = |(name, ahead_m): &(String, f64)| {
             let way = if *ahead_m > 0.0 { "ahead" } else { "behind" };

@@ -49,8 +49,8 @@ const LEAST_INERTIA_M: f64 = 0.03;
 const SHORTEST_S: f64 = 0.3;
 /// Factor by which force plates contradict a clock: 72 walks of 8 laboratories have 0.91 to 1.09 times the median.
 const BY_PLATES: f64 = 1.14;
-/// Factor by which the vertical force must contradict it, too: 118 recordings of 11 laboratories have 0.95 to 1.08,
-/// three runs at 4.5 m/s more.
+/// Factor by which the vertical force must contradict it, too. Chosen with recordings whose clock is right: few of
+/// them, fast runs on a belt, have more.
 const BY_FORCE: f64 = 1.08;
 /// Soft parts of the body follow the bones late and less, so that rigid segments seem this much too fast: the median.
 const RIGID: f64 = 0.97;
