@@ -18,12 +18,12 @@
 //! Biomech 49:1698 (r² of flexion and varus as the measure, principal components; abstract opened).
 //! Pinned by: tests/functional.rs
 
+use super::MOST_FRAMES;
 use super::segments::LegSegments;
-use super::spread;
 use crate::model::{Model, Side};
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::{asin, atan2};
-use crate::numerics::{correlation, mean, sort_numbers};
+use crate::numerics::{correlation, mean, sampled, sort_numbers};
 use crate::spatial::Vec3;
 
 /// Smallest range of flexion that shows an axis [rad]; walking has 60 degrees.
@@ -54,7 +54,7 @@ pub fn knee_cross_talk(model: &Model, motion: &MarkerRecording, side: Side) -> O
         let along = thigh.place(leg.knee) - shank.place(leg.ankle);
         Some(thigh.rotation.tr_mul(&along).normalize())
     };
-    of_directions(&spread(motion.frames()).filter_map(shank).collect::<Vec<Vec3>>())
+    of_directions(&sampled(motion.frames(), MOST_FRAMES).filter_map(shank).collect::<Vec<Vec3>>())
 }
 
 /// From the directions of the shank, from ankle to knee, in the frame of the thigh.

@@ -32,12 +32,12 @@
 //! derived here.
 //! Pinned by: tests/functional.rs
 
+use super::MOST_FRAMES;
 use super::segments::LegSegments;
-use super::spread;
 use crate::kinematics::calibration::axes::fit_pose;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::asin;
-use crate::numerics::{DenseLu, Order, Random, counted, degrees};
+use crate::numerics::{DenseLu, Order, Random, counted, degrees, sampled};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Smallest range of the thigh in the plane in which it moves least [rad]: that of Ehrig's narrowest cone.
@@ -110,7 +110,7 @@ pub(super) fn centre(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Resul
     if leg.thigh.markers.len() < FEWEST_MARKERS {
         return refused(format!("the thigh has {}; expected at least 2", counted(leg.thigh.markers.len(), "marker")));
     }
-    let frames: Vec<Points> = spread(movement.frames()).filter_map(|f| points(leg, f)).collect();
+    let frames: Vec<Points> = sampled(movement.frames(), MOST_FRAMES).filter_map(|f| points(leg, f)).collect();
     if frames.len() < FEWEST_FRAMES {
         return refused(format!(
             "pelvis and thigh are visible in {}; expected at least {FEWEST_FRAMES}",
@@ -157,7 +157,7 @@ fn duration_s(movement: &MarkerRecording) -> f64 {
 /// Deviation of the markers of the pelvis along an axis from a rigid pelvis [m].
 fn pelvis_noise(leg: &LegSegments<'_>, movement: &MarkerRecording) -> f64 {
     let (mut sum, mut free) = (0.0, 0);
-    for frame in spread(movement.frames()) {
+    for frame in sampled(movement.frames(), MOST_FRAMES) {
         let Some(pose) = leg.pelvis.pose(frame, None) else { continue };
         for (place, path) in leg.pelvis.markers.iter().filter(|(_, path)| path.is_seen(frame)) {
             sum += (path.positions[frame] - pose.place(*place)).norm_squared();
@@ -192,7 +192,7 @@ impl BallJoint {
     /// By the symmetrical centre of rotation; the centre of the calibrated body if the thigh has too few markers.
     fn of(leg: &LegSegments<'_>, movement: &MarkerRecording) -> BallJoint {
         let both = |frame| Some([leg.pelvis.pose(frame, None)?, leg.thigh.pose(frame, None)?]);
-        let rotated: Vec<Rotated> = spread(movement.frames()).filter_map(both).collect();
+        let rotated: Vec<Rotated> = sampled(movement.frames(), MOST_FRAMES).filter_map(both).collect();
         let found = (rotated.len() >= FEWEST_FRAMES).then(|| symmetrical_centre(&rotated)).flatten();
         let near = found.filter(|([centre, _], _)| (centre - leg.hip).norm() < 0.1);
         let ([centre, in_thigh], _) = near.unwrap_or(([leg.hip, Vec3::zeros()], 0.0));

@@ -10,12 +10,12 @@
 //! Source: Ehrig, Taylor, Duda, Heller 2007, J Biomech 40:2150 (abstract opened), who find the axis from the same sum.
 //! Pinned by: tests/functional.rs
 
+use super::MOST_FRAMES;
 use super::hip::Rotated;
 use super::segments::LegSegments;
-use super::spread;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::atan2;
-use crate::numerics::{counted, degrees, mean, range};
+use crate::numerics::{counted, degrees, mean, range, sampled};
 use crate::spatial::{Mat3, Vec3, rotation_vector};
 
 /// Smallest range of the knee [rad]: that from which Ehrig 2006 found centres within 3 mm by most methods.
@@ -54,7 +54,7 @@ pub fn symmetrical_axis(frames: &[Rotated]) -> Option<[Vec3; 2]> {
 pub(super) fn axis(leg: &LegSegments<'_>, movement: &MarkerRecording) -> Result<FunctionalKnee, String> {
     let refused = |why: String| Err(format!("the movement does not show the axis of the {} knee: {why}", leg.side));
     let both = |frame| leg.poses(frame).map(|[_, thigh, shank]| [thigh, shank]);
-    let frames: Vec<Rotated> = spread(movement.frames()).filter_map(both).collect();
+    let frames: Vec<Rotated> = sampled(movement.frames(), MOST_FRAMES).filter_map(both).collect();
     if frames.len() < FEWEST_FRAMES {
         return refused(format!(
             "thigh and shank are known in {}; expected at least {FEWEST_FRAMES}, with two markers on each",

@@ -29,6 +29,9 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::MarkerRecording;
 use segments::LegSegments;
 
+/// Frames of a movement that are used; more add nothing: skin slides slowly.
+const MOST_FRAMES: usize = 1000;
+
 /// What a movement shows of the joints of a body; a sentence why it does not show one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FunctionalJoints {
@@ -46,11 +49,4 @@ pub fn functional_joints(model: &Model, movement: &MarkerRecording) -> Functiona
         hips: BySide::from_fn(|side| leg(side).and_then(|leg| hip::centre(&leg, movement))),
         knees: BySide::from_fn(|side| leg(side).and_then(|leg| knee::axis(&leg, movement))),
     }
-}
-
-/// Frames of a movement that are used, spread over it.
-fn spread(frames: usize) -> impl Iterator<Item = usize> {
-    /// More frames add nothing: skin slides slowly.
-    const MOST: usize = 1000;
-    (0..frames).step_by(frames.div_ceil(MOST).max(1))
 }

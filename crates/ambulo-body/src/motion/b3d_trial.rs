@@ -20,7 +20,7 @@ use super::subject_parameters::SubjectParameters;
 use super::time_grid::Window;
 use crate::findings::{Code, Findings};
 use crate::model::{CoordinateId, Drive, Model};
-use crate::numerics::median;
+use crate::numerics::{median, sampled};
 use crate::spatial::Vec3;
 use ambulo_formats::b3d::{
     ContactFrames, Header, MissingForce, PassFrames, PassKind, Person, TrialFrames, TrialHeader,
@@ -375,7 +375,7 @@ fn check_mass_centre(model: &Model, columns: &[Option<Vec<f64>>], pass: &PassFra
         let q: Vec<f64> = columns.iter().map(|column| column.as_ref().map_or(0.0, |column| column[k])).collect();
         (model.mass_center(&q) - Vec3::from(pass.mass_centre[k])).norm()
     };
-    let distances = (0..frames).step_by(frames.div_ceil(COMPARED_FRAMES).max(1)).map(distance);
+    let distances = sampled(frames, COMPARED_FRAMES).map(distance);
     match median(distances.filter(|distance| distance.is_finite())) {
         Some(distance_m) if distance_m > SAME_MASS_CENTRE_M => {
             Err(B3dError::MassCentre { distance_m, allowed_m: SAME_MASS_CENTRE_M })

@@ -28,6 +28,11 @@ impl<T> Order<T> for [T] {
     }
 }
 
+/// At most `most` of `count` indices at equal distances, the first of them 0.
+pub fn sampled(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
+    (0..count).step_by(count.div_ceil(most).max(1))
+}
+
 /// Puts numbers in order, smallest first.
 pub fn sort_numbers(numbers: &mut [f64]) {
     numbers.sort_by(f64::total_cmp);

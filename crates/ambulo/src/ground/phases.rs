@@ -26,6 +26,12 @@ impl Contact {
     pub fn span(&self, from_s: f64, to_s: f64) -> [f64; 2] {
         [self.strike_s.unwrap_or(from_s), self.off_s.unwrap_or(to_s)]
     }
+
+    /// The contact of a motion played back; `ends_s` is the sum of the first and the last time of the motion [s].
+    pub(crate) fn played_back(self, ends_s: f64) -> Contact {
+        let back = |time_s: f64| ends_s - time_s;
+        Contact { strike_s: self.off_s.map(back), off_s: self.strike_s.map(back) }
+    }
 }
 
 /// Contacts from the vertical force on a foot [N] at increasing times [s].

@@ -2,7 +2,7 @@
 
 use super::landmark_trajectories::LandmarkTrajectories;
 use crate::findings::{Code, Findings};
-use crate::numerics::median;
+use crate::numerics::{median, sampled};
 
 /// Kind of recording for a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,7 +26,7 @@ const LEAST_QUIET: usize = 5;
 pub(super) fn frames(trajectories: &LandmarkTrajectories<'_>, trial: Trial, findings: &mut Findings) -> Vec<usize> {
     let all: Vec<usize> = (0..trajectories.recording.frames()).collect();
     if trial == Trial::Moving {
-        return spread(&all);
+        return some(&all);
     }
     let quiet: Vec<usize> = all.iter().copied().filter(|&frame| is_quiet(trajectories, frame)).collect();
     if quiet.len() < LEAST_QUIET.min(all.len()) {
@@ -39,15 +39,14 @@ pub(super) fn frames(trajectories: &LandmarkTrajectories<'_>, trial: Trial, find
                 all.len()
             ),
         );
-        return spread(&all);
+        return some(&all);
     }
-    spread(&quiet)
+    some(&quiet)
 }
 
-/// Selects at most [`MOST_FRAMES`] frames at equal distances.
-fn spread(frames: &[usize]) -> Vec<usize> {
-    let step = frames.len().div_ceil(MOST_FRAMES).max(1);
-    frames.iter().copied().step_by(step).collect()
+/// At most [`MOST_FRAMES`] of these frames.
+fn some(frames: &[usize]) -> Vec<usize> {
+    sampled(frames.len(), MOST_FRAMES).map(|k| frames[k]).collect()
 }
 
 /// Whether the median speed of all markers is small.

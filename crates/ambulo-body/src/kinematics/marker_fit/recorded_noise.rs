@@ -28,7 +28,7 @@ use super::frames::Frames;
 use super::problem::FitProblem;
 use super::settings::SmoothnessPrior;
 use crate::model::{CoordinateKind, Model};
-use crate::numerics::{Whittaker, median};
+use crate::numerics::{Whittaker, median, sampled};
 use crate::spatial::Vec3;
 
 /// Cut-offs of human movements lie between these [Hz]: 6 Hz is usual for walking.
@@ -85,7 +85,7 @@ pub(super) fn distances_in_band(problem: &mut FitProblem<'_>, frames: &Frames) -
 pub(super) fn sensitivities(problem: &mut FitProblem<'_>, frames: &Frames) -> Vec<f64> {
     let mut one = vec![0.0; problem.tree.unknowns()];
     let mut all = vec![Vec::new(); one.len()];
-    for frame in (0..frames.count()).step_by(frames.count().div_ceil(SAMPLES).max(1)) {
+    for frame in sampled(frames.count(), SAMPLES) {
         if frames.outcomes[frame].is_some() {
             frames.load(frame, problem);
             problem.pose_at(frames.posture(frame));

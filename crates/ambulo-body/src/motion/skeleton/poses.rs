@@ -9,6 +9,7 @@
 
 use super::channel_angles::about;
 use super::error::SkeletonError;
+use crate::numerics::sampled;
 use crate::spatial::{Mat3, Pose, Vec3};
 use ambulo_formats::bvh::{Bvh, ChannelKind, Joint};
 use std::ops::Range;
@@ -106,7 +107,7 @@ impl<'b> Skeleton<'b> {
 
     /// At most `most` frames, spread over the recording; the first is one of them.
     pub(super) fn some_frames(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
-        (0..self.frames()).step_by(self.frames().div_ceil(most))
+        sampled(self.frames(), most)
     }
 
     /// The pose of a joint in its parent with these values of its channels.

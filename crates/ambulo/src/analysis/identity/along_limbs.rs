@@ -17,7 +17,7 @@
 //! Without a standing trial the two sides contradict each other, and the motion decides which is wrong: a marker at a
 //! joint keeps its distance to the next segment while the joint bends, a marker further up does not. If the marker
 //! whose label is the joint's varies more than [`VARIES`] times as much as the other, the labels of this limb are
-//! exchanged. Heel and toes are told apart by the ankle, which is nearer to the heel.
+//! exchanged. Of heel and toes, the heel is nearer to the ankle.
 //! Pinned by: tests/identity.rs
 
 use super::landmark_paths::ANKLES;
@@ -27,7 +27,7 @@ use crate::findings::{Code, Findings};
 use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers, Segment};
 use crate::model::{BySide, Side};
 use crate::motion::MarkerRecording;
-use crate::numerics::{median, sample_deviation};
+use crate::numerics::{median, sample_deviation, sampled};
 
 /// Exchanged labels contradict the other witnesses by less than this share.
 const RATIO: f64 = 0.5;
@@ -55,20 +55,60 @@ pub(in crate::analysis) fn exchange_along_limbs(
     set: Option<&MarkerSet>,
     findings: &mut Findings,
 ) -> [bool; 2] {
-    let mut exchanged = [false; 2];
-    let names = recordings[1].markers.iter().map(|marker| marker.name.as_str());
+    let judge = |limb: &Limb, recordings: &[&mut MarkerRecording; 2]| {
+        let witnesses = [0, 1].map(|k| BySide::from_fn(|side| limb.distances(&*recordings[k], side)));
+        let (recording, side, pair) = limb.exchanged(&witnesses)?;
+        let why = format!("the {} and the other side contradict them", NAMES[1 - recording]);
+        Some(Exchanged { recording, name: NAMES[recording], side, pair, why })
+    };
+    exchange_back(recordings, set, judge, findings)
+}
+
+/// Exchanges labels back in a motion without a standing trial.
+pub(in crate::analysis) fn exchange_in_motion(
+    moving: &mut MarkerRecording,
+    set: Option<&MarkerSet>,
+    findings: &mut Findings,
+) {
+    let judge = |limb: &Limb, [moving]: &[&mut MarkerRecording; 1]| {
+        let witnesses = BySide::from_fn(|side| limb.distances(moving, side));
+        let (side, pair) = limb.exchanged_in_motion(&witnesses, moving)?;
+        let why = "the other side contradicts them, and so does the bending of the joints".to_owned();
+        Some(Exchanged { recording: 0, name: NAMES[1], side, pair, why })
+    };
+    exchange_back([moving], set, judge, findings);
+}
+
+/// A pair whose labels are exchanged in the whole of a recording.
+struct Exchanged {
+    /// Number of the recording, and its name in messages.
+    recording: usize,
+    name: &'static str,
+    side: Side,
+    pair: [usize; 2],
+    /// What contradicts the labels.
+    why: String,
+}
+
+/// Exchanges labels back as long as the judge finds a pair. Whether it did, for each recording; the last one knows the
+/// markers.
+fn exchange_back<const N: usize>(
+    recordings: [&mut MarkerRecording; N],
+    set: Option<&MarkerSet>,
+    judge: impl Fn(&Limb, &[&mut MarkerRecording; N]) -> Option<Exchanged>,
+    findings: &mut Findings,
+) -> [bool; N] {
+    let mut exchanged = [false; N];
+    let names = recordings[N - 1].markers.iter().map(|marker| marker.name.as_str());
     let Ok(recognised) = RecognisedMarkers::with(set, names) else { return exchanged };
     for (segments, root) in LIMBS {
         let limb = Limb::of(&recognised, segments, root);
         for _ in 0..MOST_PAIRS {
-            let witnesses = [0, 1].map(|k| BySide::from_fn(|side| limb.distances(&*recordings[k], side)));
-            let Some((recording, side, [a, b])) = limb.exchanged(&witnesses) else { break };
-            let [a, b] = [a, b].map(|place| limb.places[place].names[side].clone());
+            let Some(Exchanged { recording, name, side, pair, why }) = judge(&limb, &recordings) else { break };
+            let [a, b] = pair.map(|place| limb.places[place].names[side].clone());
             let message = format!(
-                "the markers `{a}` and `{b}` have exchanged labels in the whole {}: the {} and the other side \
-                 contradict them; they were exchanged back",
-                NAMES[recording],
-                NAMES[1 - recording]
+                "the markers `{a}` and `{b}` have exchanged labels in the whole {name}: {why}; they were exchanged \
+                 back. hint: exchange the two names in the file"
             );
             findings.report(Code::MarkersSwap, message);
             let number = |name: &str| recordings[recording].markers.iter().position(|marker| marker.name == name);
@@ -78,32 +118,6 @@ pub(in crate::analysis) fn exchange_along_limbs(
         }
     }
     exchanged
-}
-
-/// Exchanges labels back in a motion without a standing trial.
-pub(in crate::analysis) fn exchange_in_motion(
-    moving: &mut MarkerRecording,
-    set: Option<&MarkerSet>,
-    findings: &mut Findings,
-) {
-    let names = moving.markers.iter().map(|marker| marker.name.as_str());
-    let Ok(recognised) = RecognisedMarkers::with(set, names) else { return };
-    for (segments, root) in LIMBS {
-        let limb = Limb::of(&recognised, segments, root);
-        for _ in 0..MOST_PAIRS {
-            let witnesses = BySide::from_fn(|side| limb.distances(moving, side));
-            let Some((side, [a, b])) = limb.exchanged_in_motion(&witnesses, moving) else { break };
-            let [a, b] = [a, b].map(|place| limb.places[place].names[side].clone());
-            let message = format!(
-                "the markers `{a}` and `{b}` have exchanged labels in the whole recording: the other side contradicts \
-                 them, and they do not bend at the joints; they were exchanged back"
-            );
-            findings.report(Code::MarkersSwap, message);
-            let number = |name: &str| moving.markers.iter().position(|marker| marker.name == name);
-            let (Some(a), Some(b)) = (number(&a), number(&b)) else { break };
-            exchange(moving, a, b);
-        }
-    }
 }
 
 /// A marker on both sides.
@@ -139,10 +153,10 @@ impl Limb {
 
     fn distances(&self, recording: &MarkerRecording, side: Side) -> Distances {
         let paths: Vec<_> = self.places.iter().map(|place| recording.marker(&place.names[side])).collect();
-        let frames = || (0..recording.frames()).step_by(recording.frames().div_ceil(FRAMES).max(1));
+        let frames = sampled(recording.frames(), FRAMES);
         let distance = |a: usize, b: usize| {
             let (a, b) = (paths[a]?, paths[b]?);
-            let seen = frames().filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
+            let seen = frames.clone().filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
             median(seen.map(|frame| (a.positions[frame] - b.positions[frame]).norm()))
         };
         let mut distances = vec![vec![f64::NAN; paths.len()]; paths.len()];
@@ -216,8 +230,8 @@ impl Limb {
         };
         let variation = |k: usize| {
             let of_next = self.places.iter().filter(|place| place.segment == next);
-            let spreads = of_next.filter_map(|place| spread(moving, [&of(k).names[side], &place.names[side]]));
-            median(spreads)
+            let deviations = of_next.filter_map(|place| deviation(moving, [&of(k).names[side], &place.names[side]]));
+            median(deviations)
         };
         let (of_joint, of_other) = (variation(joint)?, variation(other)?);
         match of_joint / of_other {
@@ -229,11 +243,10 @@ impl Limb {
 }
 
 /// Standard deviation of the distance of two markers [m].
-fn spread(recording: &MarkerRecording, names: [&str; 2]) -> Option<f64> {
+fn deviation(recording: &MarkerRecording, names: [&str; 2]) -> Option<f64> {
     let [a, b] = names.map(|name| recording.marker(name));
     let (a, b) = (a?, b?);
-    let frames = (0..recording.frames()).step_by(recording.frames().div_ceil(FRAMES).max(1));
-    let seen = frames.filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
+    let seen = sampled(recording.frames(), FRAMES).filter(|frame| a.is_seen(*frame) && b.is_seen(*frame));
     let distances: Vec<f64> = seen.map(|frame| (a.positions[frame] - b.positions[frame]).norm()).collect();
     sample_deviation(&distances)
 }

@@ -4,6 +4,7 @@
 use crate::model::Side;
 use crate::model::marker_set::{Landmark, MarkerSet, RecognisedMarkers};
 use crate::motion::MarkerRecording;
+use crate::numerics::sampled;
 use crate::spatial::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -56,8 +57,7 @@ impl<'a> LandmarkPaths<'a> {
 
     /// Frames spread over the recording.
     pub(super) fn frames(&self) -> impl Iterator<Item = usize> + use<> {
-        let count = self.recording.frames();
-        (0..count).step_by(count.div_ceil(MOST_FRAMES).max(1))
+        sampled(self.recording.frames(), MOST_FRAMES)
     }
 
     /// The frames in which the direction to the right is known, with it.

@@ -98,11 +98,7 @@ impl FootMotion {
         self.by_method.iter_mut().for_each(|(_, events)| back(events));
         back(&mut self.events);
         for contacts in &mut self.contacts {
-            let turned = |contact: &Contact| Contact {
-                strike_s: contact.off_s.map(|time_s| ends_s - time_s),
-                off_s: contact.strike_s.map(|time_s| ends_s - time_s),
-            };
-            *contacts = contacts.iter().rev().map(turned).collect();
+            *contacts = contacts.iter().rev().map(|contact| contact.played_back(ends_s)).collect();
         }
         self.floor_speed_m_s = -self.floor_speed_m_s;
         self.walking_speed_m_s = -self.walking_speed_m_s;

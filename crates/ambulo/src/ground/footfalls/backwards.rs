@@ -10,6 +10,8 @@
 
 use super::signals::{FootPath, Signals};
 use super::{Footfall, Footfalls, in_order};
+use crate::ground::phases::Contact;
+use crate::numerics::sampled;
 use crate::spatial::Vec3;
 
 /// Share of the speed that is against the feet.
@@ -17,12 +19,7 @@ const AGAINST: f64 = -0.7;
 /// Who moves slower does not walk [m/s].
 const SLOWEST_M_S: f64 = 0.15;
 /// Frames that are looked at.
-const FRAMES: usize = 64;
-
-/// Some frames of a motion, spread over it.
-pub(in crate::ground) fn spread(frames: usize) -> impl Iterator<Item = usize> {
-    (0..frames).step_by(frames.div_ceil(FRAMES).max(1))
-}
+pub(in crate::ground) const FRAMES: usize = 64;
 
 /// Whether a person walks backwards. Of each frame: velocity of the mass centre relative to the floor [m/s], and the
 /// sum of the vectors from heel to toes of both feet.
@@ -41,7 +38,7 @@ impl Signals {
     /// Whether the person walks backwards on a floor of this velocity [m/s].
     pub(super) fn is_backwards(&self, floor_velocity: Vec3) -> bool {
         let along = |frame: usize| self.feet.iter().map(|foot| foot.places[frame][2] - foot.places[frame][0]).sum();
-        let frames = spread(self.center_velocity.len());
+        let frames = sampled(self.center_velocity.len(), FRAMES);
         walks_backwards(frames.map(|frame| [self.center_velocity[frame] - floor_velocity, along(frame)]), self.up)
     }
 
@@ -65,11 +62,10 @@ impl Signals {
 impl Footfalls {
     /// The stances when time runs from the end to the beginning; `ends_s` is the sum of its first and last time [s].
     pub(in crate::ground) fn played_back(self, ends_s: f64) -> Footfalls {
-        let back = |fall: Footfall| Footfall {
-            strike_s: fall.off_s.map(|time_s| ends_s - time_s),
-            off_s: fall.strike_s.map(|time_s| ends_s - time_s),
-            floor_velocity: -fall.floor_velocity,
-            ..fall
+        let back = |fall: Footfall| {
+            let contact = Contact { strike_s: fall.strike_s, off_s: fall.off_s };
+            let Contact { strike_s, off_s } = contact.played_back(ends_s);
+            Footfall { strike_s, off_s, floor_velocity: -fall.floor_velocity, ..fall }
         };
         let falls = in_order(self.falls.into_iter().map(back).collect());
         Footfalls { falls, floor_velocity: -self.floor_velocity }

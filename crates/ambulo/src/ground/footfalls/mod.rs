@@ -68,7 +68,7 @@ use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind};
 use crate::numerics::Order;
 use crate::spatial::Vec3;
-pub(super) use backwards::{spread, walks_backwards};
+pub(super) use backwards::{FRAMES, walks_backwards};
 use belt::Belt;
 #[doc(hidden)]
 pub use instants::OffSpeed;

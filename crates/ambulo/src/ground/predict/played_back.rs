@@ -9,9 +9,10 @@
 
 use super::geometry::FootPlace;
 use super::{Geometry, KnownMotion, Prediction, Prescribed};
-use crate::ground::footfalls::{Footfalls, spread, walks_backwards};
+use crate::ground::footfalls::{FRAMES, Footfalls, walks_backwards};
 use crate::ground::{BodyForces, GroundForces};
 use crate::model::BySide;
+use crate::numerics::sampled;
 use crate::spatial::Vec3;
 use std::ops::Range;
 
@@ -22,7 +23,7 @@ impl KnownMotion {
         let along = |place: &FootPlace| place.sole[2] - place.sole[0];
         let forward = |frame: usize| along(&feet.right[frame]) + along(&feet.left[frame]);
         let moving = |frame: usize| velocity[frame] - self.footfalls.floor_velocity;
-        walks_backwards(spread(velocity.len()).map(|frame| [moving(frame), forward(frame)]), up)
+        walks_backwards(sampled(velocity.len(), FRAMES).map(|frame| [moving(frame), forward(frame)]), up)
     }
 
     /// The same motion from its end to its beginning.
