@@ -26,6 +26,8 @@ use crate::spatial::Vec3;
 const FRAMES: usize = 30;
 /// Number of iterations.
 const ROUNDS: usize = 8;
+/// A marker farther from its place on the body has another one's label, or jumped [m].
+const STRAY_M: f64 = 0.1;
 /// κ: weight of the initial position of a marker [frames].
 const PRIOR: f64 = 6.0;
 
@@ -76,8 +78,9 @@ fn places(body: &Calibrated, sample: &MarkerRecording, fit: &MarkerFit, first: &
         let motion = body_motion(model, Posture { q: &q, qd: &rest, qdd: &rest });
         for ((marker, path), sum) in model.markers().iter().zip(&paths).zip(&mut sums) {
             let seen = path.map(|path| path.positions[frame]).filter(|p| p.iter().all(|x| x.is_finite()));
-            if let (Some(id), Some(seen)) = (marker.body, seen) {
-                sum.0 += in_frame(&motion[id.index()].pose, seen);
+            let place = marker.body.zip(seen).map(|(id, seen)| in_frame(&motion[id.index()].pose, seen));
+            if let Some(place) = place.filter(|place| (place - marker.location).norm() < STRAY_M) {
+                sum.0 += place;
                 sum.1 += 1.0;
             }
         }
