@@ -490,7 +490,7 @@ codes! {
         "The message states what is missing or wrong in the file.";
     PlatesExcursion "plates.excursion" Warning
         "A channel of a force plate or a force of a table jumps away from its course and back within 50 ms, which no \
-         load does. Straight lines were drawn instead."
+         load does. Straight lines were drawn instead, through all channels of the plate."
         "Look for a loose cable; the force there is an interpolation.";
     PlatesStillChannel "plates.still_channel" Warning
         "A channel of a loaded force plate, or a component of a force of a table, has one value all the time, so a \
