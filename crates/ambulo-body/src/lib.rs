@@ -10,7 +10,6 @@
 //! | [`model`] | bodies, joints, coordinates, markers and anatomy |
 //! | [`motion`] | recordings of markers, coordinates, skeletons, force plates and sensors |
 //! | [`kinematics`] | from markers to coordinates, and from coordinates to the motion of all bodies |
-//! | [`technical_markers`] | markers without a known name, by the segment with which they move |
 //! | [`functional`] | centres of hips and axes of knees from a movement |
 //! | [`contact`] | contact points, friction, rigid and compliant laws |
 //! | [`dynamics`] | inverse dynamics, and bodies under constraints |
@@ -27,7 +26,6 @@ pub mod model;
 pub mod motion;
 
 pub mod kinematics;
-pub mod technical_markers;
 
 pub mod functional;
 
@@ -53,7 +51,6 @@ pub mod internals {
     pub use crate::kinematics::marker_fit::rows::MarkerRows;
     pub use crate::kinematics::pose_fit::joint_angles::{JointAngles, turn_about};
     pub use crate::model::marker_set::name_index::{NameIndex, Readings, RecordedName};
-    pub use crate::model::neck_and_wrists::{FreeParts, with_neck_and_wrists};
     pub use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, reshaped};
     pub use crate::motion::force_plate::units::{INCH_M, KILOPOND_N, POUND_N, moment_nm};
     pub use crate::motion::skeleton::channel_angles::{angle_between, angles, rotation};

@@ -79,12 +79,13 @@
 
 #[doc(inline)]
 pub use ambulo_body::{
-    contact, dynamics, findings, formats, functional, kinematics, model, motion, numerics, spatial, technical_markers,
-    toml_reader,
+    contact, dynamics, findings, formats, functional, kinematics, model, motion, numerics, spatial, toml_reader,
 };
 #[doc(inline)]
 pub use ambulo_muscles as muscles;
 pub use ambulo_walk::{figure_shape, gait, optimal};
+
+pub mod technical_markers;
 
 pub mod ground;
 

@@ -21,10 +21,10 @@ use ambulo::kinematics::{BodyMotion, Posture, body_motion};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::full_body::full_body;
 use ambulo::model::marker_set::MarkerSet;
+use ambulo::model::neck_and_wrists::{FreeParts, with_neck_and_wrists};
 use ambulo::model::{BySide, Marker, Model, Side};
 use ambulo::motion::{MarkerPath, MarkerRecording, Motion};
 use ambulo::spatial::Vec3;
-use ambulo_body::internals::{FreeParts, with_neck_and_wrists};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const HEAD: [&str; 4] = ["RFHD", "LFHD", "RBHD", "LBHD"];

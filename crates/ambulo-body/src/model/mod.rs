@@ -15,7 +15,8 @@ mod import;
 mod joint;
 mod knots;
 pub mod marker_set;
-pub(crate) mod neck_and_wrists;
+#[doc(hidden)]
+pub mod neck_and_wrists;
 #[doc(hidden)]
 pub mod osim_frame;
 #[doc(hidden)]

@@ -20,7 +20,7 @@ use super::{
 use crate::spatial::{Inertia, Pose, Vec3};
 
 /// Name of the body of the head.
-pub(crate) const HEAD: &str = "head";
+pub const HEAD: &str = "head";
 
 /// Ranges [deg]: neck flexion 60, extension 75, bending 45, rotation 80; wrist flexion 80, extension 70, towards the
 /// little finger 35, the thumb 25. Tables of normal ranges of motion (American Medical Association and Academy of
@@ -39,7 +39,8 @@ pub struct FreeParts {
 }
 
 /// Name of the body of a hand.
-pub(crate) fn hand(side: Side) -> String {
+#[must_use]
+pub fn hand(side: Side) -> String {
     format!("hand_{}", side.letter())
 }
 

@@ -50,7 +50,8 @@ pub use axes::angles_zxy;
 pub use error::CalibrationError;
 pub use hip_centre::HipRegression;
 pub(in crate::kinematics) use legs::stature;
-pub(crate) use neck_and_wrists::ENOUGH_ON_TRUNK;
+#[doc(hidden)]
+pub use neck_and_wrists::ENOUGH_ON_TRUNK;
 #[doc(hidden)]
 pub use pelvis::hip_centres;
 pub use person::{BodyMeasurements, JointCentres, KneeAxis, PersonMeasurements};

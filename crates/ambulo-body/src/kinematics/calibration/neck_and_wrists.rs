@@ -13,7 +13,7 @@ use crate::model::{BodyId, BySide, Model};
 use crate::spatial::Vec3;
 
 /// Number of markers on the trunk that show its motion without those of the head.
-pub(crate) const ENOUGH_ON_TRUNK: usize = 3;
+pub const ENOUGH_ON_TRUNK: usize = 3;
 /// Number of markers that show how a head turns.
 const ENOUGH_ON_HEAD: usize = 3;
 

@@ -134,7 +134,11 @@ pub fn fit_own_markers(
 
 /// [`fit_markers`] in a few steps a frame: postures that are right to within millimetres, also where a weakly
 /// determined angle would take many.
-pub(crate) fn nearly_fit_markers(
+///
+/// # Errors
+/// As [`fit_markers`].
+#[doc(hidden)]
+pub fn nearly_fit_markers(
     model: &Model,
     markers: &MarkerRecording,
     settings: &FitSettings,

@@ -56,7 +56,7 @@ impl Segment {
     }
 
     /// Every segment with its side.
-    pub(crate) fn all() -> impl Iterator<Item = (Segment, Option<Side>)> {
+    pub fn all() -> impl Iterator<Item = (Segment, Option<Side>)> {
         Segment::WORDS.into_iter().flat_map(|(_, segment)| match segment.is_paired() {
             true => Side::BOTH.map(|side| (segment, Some(side))).to_vec(),
             false => vec![(segment, None)],
@@ -64,7 +64,8 @@ impl Segment {
     }
 
     /// Weight in a fit of a marker that only shows the motion of the segment.
-    pub(crate) fn technical_weight(self) -> f64 {
+    #[must_use]
+    pub fn technical_weight(self) -> f64 {
         if matches!(self, Segment::Humerus | Segment::Forearm) { LOOSE_WEIGHT } else { FOLLOWING_WEIGHT }
     }
 
