@@ -85,6 +85,7 @@ pub use ambulo_body::{
 pub use ambulo_muscles as muscles;
 pub use ambulo_walk::{figure_shape, gait, optimal};
 
+#[doc(hidden)]
 pub mod technical_markers;
 
 pub mod ground;

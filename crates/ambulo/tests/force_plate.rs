@@ -324,7 +324,7 @@ fn what_no_load_does_to_a_channel_is_bridged_and_reported() {
             assert!(off < if span.contains(&i) { 50.0 } else { ROUNDING }, "{name} {i}: {off} N");
         }
     }
-    // A loose plug in the moment: the force stays as it was.
+    // A loose plug in the moment.
     let mut file = sine(1000.0);
     file.channels[4] = (0..300).map(|i| -0.1 * file.channels[2][i]).collect();
     file.channels[4][150..153].fill(9e4);
@@ -354,6 +354,64 @@ fn what_no_load_does_to_a_channel_is_bridged_and_reported() {
     let mut file = sine(1000.0);
     file.channels[2][150] = 8000.0;
     assert!(!read(&file).1.has(Code::PlatesExcursion));
+}
+
+/// What a recording of a plate lost, in words.
+fn lost(findings: &Findings) -> Option<String> {
+    let lost = findings.as_slice().iter().find(|finding| finding.code == Code::PlatesLost);
+    lost.map(|finding| finding.message.clone())
+}
+
+/// Largest difference of the force on two plates [N].
+fn apart(a: &PlateRecording, b: &PlateRecording) -> f64 {
+    (0..a.times.len()).map(|i| (a.force[i] - b.force[i]).norm()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_plug_that_is_out_for_a_while_is_bridged_in_the_channels_that_lost_it() {
+    let mut whole = sine(1000.0);
+    // Shear of a step: braking, then propulsion, each a fifth of the load.
+    let shear = |i: usize| 160.0 * (2.0 * std::f64::consts::PI * (i as f64 - 80.0) / 140.0).sin();
+    whole.channels[1] = (0..300).map(|i| if (80..220).contains(&i) { shear(i) } else { 0.0 }).collect();
+    let (clean, findings) = read_fast(&whole);
+    assert_eq!(lost(&findings), None);
+    // Only shear, for 30 ms around its largest value: the vertical force keeps its course.
+    let mut file = whole.clone();
+    file.channels[1][100..130].fill(0.0);
+    let (plate, findings) = read_fast(&file);
+    assert!(findings.has(Code::PlatesExcursion) && lost(&findings).is_none(), "{findings:?}");
+    // A line over 34 ms below the top of a sine of 140 ms: 160 (1 - cos(2 pi 17 / 140)) = 44 N.
+    assert!(apart(&plate, &clean) < 45.0, "{} N", apart(&plate, &clean));
+    assert!((0..300).all(|i| (plate.vertical(i) - clean.vertical(i)).abs() < ROUNDING));
+    // The whole plate, while the load falls, and for longer than a foot takes to load and unload it.
+    for span in [175..200, 120..185] {
+        let mut file = whole.clone();
+        file.channels.iter_mut().for_each(|channel| channel[span.clone()].fill(0.0));
+        let (plate, findings) = read_fast(&file);
+        assert_eq!(lost(&findings).is_some(), span.len() > 50, "{findings:?}");
+        let most = (0..300).map(|i| (plate.vertical(i) - clean.vertical(i)).abs()).fold(0.0, f64::max);
+        // The half sine is 800 N where the longer line is 571 N.
+        assert!(most < 230.0, "{span:?}: {most} N");
+    }
+    // A plug that stays out.
+    let mut file = whole.clone();
+    file.channels[2][150..].fill(0.0);
+    let said = lost(&read_fast(&file).1).unwrap();
+    assert!(said.contains("plate 1 jumps to or from one level at 0.150 s"), "{said}");
+}
+
+#[test]
+fn a_plate_that_keeps_its_values_under_a_load_is_not_called_clipped() {
+    let (clean, _) = read_fast(&sine(1000.0));
+    let mut file = sine(1000.0);
+    for channel in &mut file.channels {
+        let kept = channel[110];
+        channel[110..170].fill(kept);
+    }
+    let (plate, findings) = read_fast(&file);
+    let said = lost(&findings).unwrap();
+    assert!(said.contains("plate 1 lost its signal from 0.111 to 0.170 s"), "{said}");
+    assert!(!findings.has(Code::PlatesClipped) && apart(&plate, &clean) < 250.0, "{}", apart(&plate, &clean));
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | outside of a bridged spike force, point and moment are as recorded; inside they are a straight line | exact |
 //! | a spike along each axis is bridged | 2 N |
-//! | an excursion of 50 ms is bridged, one of 51 ms is a load | exact |
+//! | an excursion of 50 ms is bridged, one of 51 ms is reported as a lost signal | exact |
+//! | missing rows are reported; points of light loads are held near the foot | 0.3 m |
 //! | clean tables, and those of a plane, are silent | exact |
 
 use ambulo::findings::{Code, Findings};
@@ -106,12 +107,41 @@ fn a_spike_along_any_axis_is_bridged() {
 }
 
 #[test]
-fn what_lasts_longer_than_50_ms_is_a_load() {
-    for (length, is_bridged) in [(50, true), (51, false)] {
+fn what_lasts_longer_than_50_ms_is_lost() {
+    for (length, is_brief) in [(50, true), (51, false)] {
         let mut spoiled = columns();
         set(&mut spoiled, "right_vy", 200..200 + length, 0.0);
         let (_, findings) = read(spoiled);
-        assert_eq!(findings.has(Code::PlatesExcursion), is_bridged, "{length} ms");
+        assert_eq!(findings.has(Code::PlatesExcursion), is_brief, "{length} ms");
+        assert_eq!(findings.has(Code::PlatesLost), !is_brief, "{length} ms");
+    }
+}
+
+#[test]
+fn rows_that_are_missing_under_a_load_are_reported() {
+    let without = |rows: Range<usize>| {
+        let mut columns = columns();
+        columns.iter_mut().for_each(|(_, values)| drop(values.drain(rows.clone())));
+        message(&read(columns).1, Code::PlatesLost)
+    };
+    let said = without(200..300).unwrap();
+    assert!(said.contains("the force `right` has no rows from 0.199 to 0.300 s, under a load"), "{said}");
+    assert_eq!(without(200..230), None);
+}
+
+#[test]
+fn points_far_from_the_foot_under_a_light_load_are_held() {
+    let (clean, _) = read(columns());
+    let light = |i: usize| clean[0].force[i].norm() < 100.0;
+    let mut spoiled = columns();
+    let point = spoiled.iter_mut().find(|(known, _)| known == "right_px").unwrap();
+    (0..FRAMES).filter(|i| light(*i)).for_each(|i| point.1[i] = 9999.0);
+    let (found, findings) = read(spoiled);
+    let said = message(&findings, Code::LoadsLightPoint).unwrap();
+    assert!(said.contains("points of the load `right` lie up to ") && !findings.has(Code::LoadsMillimetres), "{said}");
+    for i in (0..FRAMES).filter(|i| clean[0].force[*i].norm() > 1.0) {
+        let off = (found[0].point[i] - clean[0].point[i]).norm();
+        assert!(off < 0.3, "{i}: {off} m");
     }
 }
 

@@ -492,6 +492,11 @@ codes! {
         "A channel of a force plate or a force of a table jumps away from its course and back within 50 ms, which no \
          load does. Straight lines were drawn instead, through all channels of the plate."
         "Look for a loose cable; the force there is an interpolation.";
+    PlatesLost "plates.lost" Warning
+        "A force plate or a force of a table lost its signal for longer than 50 ms: it stays at one level between \
+         jumps, \
+         keeps its values, jumps and does not return, or has no rows. The force there is not known."
+        "Look for a loose cable, lost packets or rows that were deleted; the message says what was drawn instead.";
     PlatesStillChannel "plates.still_channel" Warning
         "A channel of a loaded force plate, or a component of a force of a table, has one value all the time, so a \
          part of the force is missing."
@@ -594,6 +599,11 @@ codes! {
     LoadsMillimetres "loads.millimetres" Warning
         "A load acts so far from the origin that its points appear to be in millimetres."
         "Divide the points by 1000, and the moments too if they are in N.mm.";
+    LoadsLightPoint "loads.light_point" Warning
+        "Points of a load lie far from the foot where it carries little; they were held at the nearest point of a \
+         solid \
+         load."
+        "Filter forces and moments first, and compute points then; leave rows without a point empty.";
     LoadsPointUndefined "loads.point_undefined" Note
         "A load has no point of application while it is unloaded; it was read as zero."
         "Nothing to do.";

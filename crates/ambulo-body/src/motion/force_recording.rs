@@ -1,14 +1,16 @@
 //! Forces from force plates or other sensors: force, point of application and moment about it.
 //! Pinned by: tests/force_tables.rs
 
-use super::glitches::{self, RINGING, STEP_N};
+use super::glitches::{self, RINGING, STEP_N, Sensor};
 use super::import::rows_with_clock;
 use super::recording::MotionError;
-use crate::findings::{Code, Findings};
+use crate::findings::{Code, Findings, and_more_times};
 use crate::model::{BodyId, Model};
+use crate::numerics::{counted, extremes, median};
 use crate::spatial::{Mat3, Vec3};
 use ambulo_formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo_formats::table::Table;
+use std::ops::Range;
 
 /// A recorded load on one body.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,48 +47,149 @@ impl ForceRecording {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Rows with solid loads, without others between them.
+struct SolidRun {
+    rows: Range<usize>,
+    /// Smallest and largest coordinates of their points [m].
+    bounds: [(f64, f64); 3],
+}
+
 impl ForceRecording {
     /// Range of the force, without its rarest values.
     fn load(&self) -> Option<f64> {
         glitches::range(&self.force.iter().map(|force| force.norm()).collect::<Vec<_>>())
     }
 
-    /// A component of the force.
-    fn component(&self, axis: usize) -> Vec<f64> {
-        self.force.iter().map(|force| force[axis]).collect()
+    /// A component of the force where it is loaded. Without a load a table may have anything that is small.
+    fn under_load(&self, axis: usize) -> Vec<f64> {
+        self.force.iter().filter(|force| force.norm() > LOADED_N).map(|force| force[axis] + 0.0).collect()
     }
 
-    /// Replaces excursions of the force that no load makes by straight lines, and the point and the moment at the same
-    /// times, which were computed from the force.
-    fn bridge_excursions(&mut self, findings: &mut Findings) {
-        let Some(load) = self.load().filter(|load| *load > STEP_N) else { return };
-        let [Some(first), Some(last)] = [self.times.first(), self.times.last()] else { return };
-        let rate_hz = (self.times.len() - 1) as f64 / (last - first);
-        for (axis, name) in AXES.into_iter().enumerate() {
-            let spans = glitches::excursions(&self.component(axis), rate_hz, RINGING * load);
-            for span in &spans {
-                for values in [&mut self.force, &mut self.point, &mut self.moment] {
-                    glitches::bridge(values, span);
-                }
+    /// Smallest solid load [N].
+    fn solid_n(&self) -> f64 {
+        let largest = self.force.iter().map(|force| force.norm()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        LOADED_N.max(SOLID_SHARE * largest)
+    }
+
+    /// Distance of the points of solid loads from the origin [m]; 0 without any.
+    fn usual_distance_m(&self) -> f64 {
+        let solid_n = self.solid_n();
+        let solid = self.force.iter().zip(&self.point).filter(|(f, p)| f.norm() > solid_n && p.norm().is_finite());
+        median(solid.map(|(_, p)| p.norm())).unwrap_or(0.0)
+    }
+
+    /// Runs of rows with solid loads, each with the box around its points.
+    fn solid_runs(&self) -> Vec<SolidRun> {
+        let solid_n = self.solid_n();
+        let is_solid = |i: &usize| self.force[*i].norm() > solid_n;
+        let (mut runs, mut start) = (Vec::new(), 0);
+        while start < self.times.len() {
+            let length = (start..self.times.len()).take_while(is_solid).count();
+            let rows = start..start + length;
+            let along = |axis: usize| extremes(&self.point[rows.clone()].iter().map(|p| p[axis]).collect::<Vec<_>>());
+            let bounds = [along(0), along(1), along(2)];
+            if length > 0 && bounds.iter().all(|(low, high)| low.is_finite() && high.is_finite() && low <= high) {
+                runs.push(SolidRun { rows, bounds });
             }
-            let what = format!("the force `{}` along {name}", self.name);
-            glitches::report(&what, &spans, (&self.times, rate_hz), findings);
+            start += length + 1;
+        }
+        runs
+    }
+
+    /// Holds points of light loads at those of the nearest solid loads. A force that was filtered after its point was
+    /// computed, or a number that stands for "no point", leaves them anywhere, where their moments are large.
+    fn hold_light_points(&mut self, findings: &mut Findings) {
+        let runs = if self.usual_distance_m() > FARTHEST_PLAUSIBLE_POINT_M { Vec::new() } else { self.solid_runs() };
+        let (mut held, mut farthest_m) = (0, 0.0_f64);
+        for i in 0..self.times.len() {
+            let next = runs.partition_point(|run| run.rows.end <= i);
+            let around = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|k| runs.get(k));
+            let apart = |run: &&SolidRun| run.rows.start.saturating_sub(i).max((i + 1).saturating_sub(run.rows.end));
+            let Some(SolidRun { rows, bounds }) = around.min_by_key(apart) else { return };
+            let point = self.point[i];
+            let nearest = Vec3::from_fn(|axis, _| point[axis].clamp(bounds[axis].0, bounds[axis].1));
+            let off_m = (point - nearest).norm();
+            let is_far = off_m > FARTHEST_LIGHT_POINT_M && off_m * self.force[i].norm() > HARMLESS_NM;
+            if is_far && !rows.contains(&i) {
+                (held, farthest_m) = (held + 1, farthest_m.max(off_m));
+                self.point[i] = nearest;
+            }
+        }
+        if held > 0 {
+            let message = format!(
+                "points of the load `{}` lie up to {farthest_m:.1} m from the foot under less than {:.0} N ({}): \
+                 a force that was filtered after its points were computed, or numbers for no point; they were held at \
+                 the nearest point of a solid load. hint: filter forces and moments first, and compute points then",
+                self.name,
+                self.solid_n(),
+                counted(held, "row")
+            );
+            findings.report(Code::LoadsLightPoint, message);
+        }
+    }
+
+    /// Reports times without rows under a load.
+    fn report_missing_rows(&self, step_s: f64, findings: &mut Findings) {
+        let is_hole = |i: &usize| {
+            let is_loaded = |i: usize| self.force[i].norm() > LOADED_N;
+            self.times[i + 1] - self.times[*i] > SHORTEST_HOLE_S.max(3.0 * step_s)
+                && (is_loaded(*i) || is_loaded(i + 1))
+        };
+        let holes: Vec<usize> = (0..self.times.len().saturating_sub(1)).filter(is_hole).collect();
+        let Some(first) = holes.first() else { return };
+        let message = format!(
+            "the force `{}` has no rows from {:.3} to {:.3} s{}, under a load: straight lines were drawn instead, and \
+             the force there is not known. hint: keep all rows of the table",
+            self.name,
+            self.times[*first],
+            self.times[first + 1],
+            and_more_times(holes.len())
+        );
+        findings.report(Code::PlatesLost, message);
+    }
+
+    /// Mends what no load does to the force; the point and the moment, which were computed from it, follow.
+    fn mend(&mut self, findings: &mut Findings) {
+        let Some(load) = self.load().filter(|load| *load > STEP_N) else { return };
+        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let Some(step_s) = median(steps) else { return };
+        self.report_missing_rows(step_s, findings);
+        let name = format!("the force `{}`", self.name);
+        let mut signals: Vec<Vec<f64>> =
+            [&self.force, &self.point, &self.moment].into_iter().flat_map(|vectors| columns(vectors)).collect();
+        let sensor = Sensor {
+            name: &name,
+            names: AXES.map(|axis| format!("{name} along {axis}")).to_vec(),
+            least: vec![RINGING * load; AXES.len()],
+            times: &self.times,
+            rate_hz: 1.0 / step_s,
+        };
+        sensor.mend(&mut signals, findings);
+        for (axis, signal) in signals.iter().enumerate() {
+            let part = [&mut self.force, &mut self.point, &mut self.moment];
+            let values = part.into_iter().nth(axis / 3).into_iter().flatten();
+            values.zip(signal).for_each(|(value, x)| value[axis % 3] = *x);
         }
     }
 }
 
-/// Reports components of loaded forces that have one value at all times. A table of a plane has no force across it, so
-/// that a component of zeros must be there in another load of the table.
+/// The components of vectors.
+fn columns(vectors: &[Vec3]) -> [Vec<f64>; 3] {
+    std::array::from_fn(|axis| vectors.iter().map(|vector| vector[axis]).collect())
+}
+
+/// Reports components of forces that have one value at all times under a load. A table of a plane has no force across
+/// it, so that a component of zeros must be there in another load of the table.
 fn report_still(recordings: &[ForceRecording], findings: &mut Findings) {
-    let is_still = |recording: &ForceRecording, axis: usize| glitches::is_still(&recording.component(axis));
+    let is_still = |recording: &ForceRecording, axis: usize| glitches::is_still(&recording.under_load(axis));
     for (axis, name) in AXES.into_iter().enumerate() {
         let is_moving = recordings.iter().any(|recording| !is_still(recording, axis));
-        let is_set = |recording: &ForceRecording| recording.force.first().is_some_and(|force| force[axis].abs() > 0.0);
+        let is_set = |own: &ForceRecording| own.under_load(axis).first().is_some_and(|force| force.abs() > 0.0);
         for recording in recordings.iter().filter(|recording| is_still(recording, axis)) {
             let Some(load_n) = recording.load().filter(|load| *load > STEP_N) else { continue };
             if is_moving || is_set(recording) {
                 let message = format!(
-                    "the force `{}` carries a load of {load_n:.0} N, but has one value along {name} all the time: this \
+                    "the force `{}` carries a load of {load_n:.0} N, but has one value along {name} under it: this \
                      part of the force is missing, and moments that need it are wrong. hint: check the columns of the \
                      table, and the cables and the amplifier of the plate",
                     recording.name
@@ -99,8 +202,17 @@ fn report_still(recordings: &[ForceRecording], findings: &mut Findings) {
 
 /// Largest plausible distance of a loaded point from the origin [m]; a larger one is probably in millimetres.
 const FARTHEST_PLAUSIBLE_POINT_M: f64 = 60.0;
-/// Smallest load for this test [N].
+/// Smallest load for this test, and for holes and values that never move [N].
 const LOADED_N: f64 = 20.0;
+/// Shortest time without rows that is reported [s].
+const SHORTEST_HOLE_S: f64 = 0.05;
+/// A load is solid above this share of its largest value.
+const SOLID_SHARE: f64 = 0.2;
+/// A point of a light load lies at most this far beyond those of the solid loads of the same contact [m]: about the
+/// length of a foot.
+const FARTHEST_LIGHT_POINT_M: f64 = 0.3;
+/// Error of a moment that needs no mending [N.m].
+const HARMLESS_NM: f64 = 5.0;
 
 /// Reads the loads of an external-loads document from the columns of `table`.
 ///
@@ -137,7 +249,10 @@ pub fn force_recordings(
         recordings.push(recording);
     }
     report_still(&recordings, findings);
-    recordings.iter_mut().for_each(|recording| recording.bridge_excursions(findings));
+    for recording in &mut recordings {
+        recording.mend(findings);
+        recording.hold_light_points(findings);
+    }
     Ok(recordings)
 }
 
@@ -176,13 +291,11 @@ fn triple(
 }
 
 fn report_millimetres(recording: &ForceRecording, findings: &mut Findings) {
-    let loaded =
-        recording.force.iter().zip(&recording.point).filter(|(f, p)| f.norm() > LOADED_N && p.norm().is_finite());
-    let farthest = loaded.map(|(_, p)| p.norm()).fold(0.0, f64::max);
-    if farthest > FARTHEST_PLAUSIBLE_POINT_M {
+    let usual = recording.usual_distance_m();
+    if usual > FARTHEST_PLAUSIBLE_POINT_M {
         let message = format!(
-            "the load `{}` acts up to {farthest:.0} m from the origin; its points look like millimetres. hint: divide \
-             the points by 1000, and the moments too if they are N.mm",
+            "the load `{}` acts about {usual:.0} m from the origin; its points look like millimetres. hint: divide the \
+             points by 1000, and the moments too if they are N.mm",
             recording.name
         );
         findings.report(Code::LoadsMillimetres, message);

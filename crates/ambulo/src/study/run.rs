@@ -28,7 +28,7 @@ use crate::analysis::{
 };
 use crate::dynamics::residual_reduction::ReducedMotion;
 use crate::dynamics::{Workspace, inverse_with_residual};
-use crate::findings::{Code, Finding, Findings};
+use crate::findings::{Code, Findings};
 use crate::ground::footfalls::{Footfall, Footfalls, footfalls};
 use crate::ground::predict::predict;
 use crate::ground::stances::{Stance, StanceSource};
@@ -257,9 +257,7 @@ impl Computed {
         let place_of = || PlatePlace::of(body, &analysis.trajectory, &person.soles, &analysis.ground);
         let place = measured.then(place_of).flatten();
         place.iter().for_each(|place| place.report(findings));
-        let center_offset = self.center_offset(&stances, findings);
-        let still = |finding: &&Finding| finding.code == Code::PlatesStillChannel;
-        let still_channels = findings.as_slice().iter().filter(still).map(|finding| finding.message.clone()).collect();
+        let (center_offset, lost_forces) = (self.center_offset(&stances, findings), lost_forces(findings));
         // The clock of a computed motion is known.
         let by_gait = || {
             self.recorded.as_ref()?;
@@ -267,7 +265,7 @@ impl Computed {
         };
         let evidence = QualityEvidence {
             height_m: person.height_m,
-            still_channels,
+            lost_forces,
             recorded: self.recorded.as_ref(),
             smoothed: (processing.smoother, analysis.trajectory.grid().rate_hz()),
             is_too_short: feasibility::inner_frames(analysis.trajectory.grid()).is_empty(),
@@ -318,6 +316,13 @@ fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Fi
         }
         _ => Vec::new(),
     }
+}
+
+/// Messages about measured forces of which a part is missing.
+fn lost_forces(findings: &Findings) -> Vec<String> {
+    let of_lost = [Code::PlatesStillChannel, Code::PlatesClipped, Code::PlatesLost];
+    let lost = findings.as_slice().iter().filter(|finding| of_lost.contains(&finding.code));
+    lost.map(|finding| finding.message.clone()).collect()
 }
 
 /// Faults of a recorded motion, before it is smoothed.

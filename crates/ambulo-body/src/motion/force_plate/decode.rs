@@ -1,6 +1,6 @@
 //! Converts the channels of one plate to forces in the axes of the laboratory.
 
-use super::super::glitches::{self, RINGING, STEP_N};
+use super::super::glitches::{self, RINGING, STEP_N, Sensor};
 use super::baseline::{self, Baseline};
 use super::body_weight::stepped_weight;
 use super::clipping;
@@ -125,9 +125,10 @@ pub(super) fn decode(
     let mut reading = Reading { kind: layout.kind, origin, units: source.units, sign: 1.0 };
     // A plate without a load has nothing but noise.
     let load_n = glitches::range(&vertical(&channels, reading, &surface, up));
-    if let Some(load_n) = load_n.filter(|load_n| *load_n > STEP_N) {
-        bridge_excursions(source, (layout.kind, load_n), &mut channels, findings);
-    }
+    let lost = match load_n.filter(|load_n| *load_n > STEP_N) {
+        Some(load_n) => mend(source, (layout.kind, load_n), &mut channels, findings),
+        None => Vec::new(),
+    };
     reading.sign = load_sign(&vertical(&channels, reading, &surface, up));
     if reading.sign < 0.0 {
         let message = format!(
@@ -140,7 +141,7 @@ pub(super) fn decode(
     let vertical = vertical(&channels, reading, &surface, up);
     report_still(source, layout.kind, &channels, &vertical, findings);
     let baseline = baseline::find(&channels, &vertical, source.rate_hz, source.zero.clone());
-    let clipped = clipped(source, baseline.as_ref(), layout, findings);
+    let clipped = clipped(source, baseline.as_ref(), (layout, &lost), findings);
     let removed = baseline.filter(|_| settings.remove_baseline);
     if let Some(baseline) = &removed {
         remove(&mut channels, baseline, layout.kind);
@@ -155,28 +156,25 @@ pub(super) fn decode(
     Ok(recording)
 }
 
-/// Replaces excursions that no load makes by straight lines, on a plate that carried a load [N].
-fn bridge_excursions(
+/// Mends what no load does, on a plate that carried a load [N]. Returns the longer times that were replaced.
+fn mend(
     source: &PlateSource,
     (kind, load_n): (PlateKind, f64),
     channels: &mut [Vec<f64>],
     findings: &mut Findings,
-) {
+) -> Vec<Range<usize>> {
     // The free moment of type 1 follows from the centre of pressure, which jumps under a small load.
-    let is_direct = |i: usize| !kind.is_coordinate(i) && (kind != PlateKind::Point || i < 3);
-    let mut of_plate = Vec::new();
-    for (i, channel) in channels.iter().enumerate().filter(|(i, _)| is_direct(*i)) {
-        let is_force = i < 3 || kind.has_four_sensors();
-        let least = if is_force { RINGING * load_n / source.units.force_n } else { 0.0 };
-        let spans = glitches::excursions(channel, source.rate_hz, least);
-        let what = format!("channel {} of {}", i + 1, source.name);
-        glitches::report(&what, &spans, (&source.times, source.rate_hz), findings);
-        of_plate.extend(spans);
-    }
-    // A channel that fails alone, or with others that stay below the limits: one load has one course.
-    for channel in channels {
-        of_plate.iter().for_each(|span| glitches::bridge(channel, span));
-    }
+    let judged = if kind == PlateKind::Point { 3 } else { channels.len() };
+    let is_force = |i: usize| i < 3 || kind.has_four_sensors();
+    let least = |i: usize| if is_force(i) { RINGING * load_n / source.units.force_n } else { 0.0 };
+    let sensor = Sensor {
+        name: &source.name,
+        names: (0..judged).map(|i| format!("channel {} of {}", i + 1, source.name)).collect(),
+        least: (0..judged).map(least).collect(),
+        times: &source.times,
+        rate_hz: source.rate_hz,
+    };
+    sensor.mend(channels, findings)
 }
 
 /// Reports channels that have one value, though the plate was stepped on.
@@ -343,7 +341,7 @@ fn report_baseline(source: &PlateSource, baseline: &Baseline, findings: &mut Fin
 fn clipped(
     source: &PlateSource,
     baseline: Option<&Baseline>,
-    layout: Layout,
+    (layout, lost): (Layout, &[Range<usize>]),
     findings: &mut Findings,
 ) -> Vec<[f64; 2]> {
     // The baseline is of the calibrated channels, which are the raw ones without a matrix.
@@ -353,7 +351,8 @@ fn clipped(
         if layout.kind.is_coordinate(i) {
             continue;
         }
-        let spans = clipping::spans(channel, level(i));
+        let is_new = |span: &Range<usize>| !lost.iter().any(|own| own.start <= span.end && span.start <= own.end);
+        let spans: Vec<_> = clipping::spans(channel, level(i)).into_iter().filter(is_new).collect();
         if !spans.is_empty() {
             let message = format!(
                 "channel {} of {} stays at its largest or smallest value at {:.3} s: it was clipped, and the force \

@@ -28,8 +28,8 @@ pub enum Measure {
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
-    /// Number of force plates with channels that never move.
-    StillChannels,
+    /// Number of measured forces of which a part is missing.
+    LostForces,
     /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
     ForceDirections,
     /// Distance of the markers or joints of pelvis and legs from the fitted body.
@@ -102,7 +102,7 @@ impl Measure {
         Measure::UnmeasuredLeg,
         Measure::UnassignedForces,
         Measure::SilentPlates,
-        Measure::StillChannels,
+        Measure::LostForces,
         Measure::ForceDirections,
         Measure::MarkerFit,
         Measure::TrunkFit,
@@ -142,7 +142,7 @@ impl Measure {
             Measure::UncheckedForces | Measure::UnmeasuredLeg => AtMost(0.0, 1.0),
             Measure::UnassignedForces => AtMost(0.1, 0.5),
             Measure::SilentPlates => AtMost(0.0, 0.9),
-            Measure::StillChannels => AtMost(0.0, 3.0),
+            Measure::LostForces => AtMost(0.0, 3.0),
             Measure::ForceDirections => AtLeast(0.6, 0.5),
             Measure::MarkerFit => AtMost(0.02, 0.04),
             Measure::TrunkFit => AtMost(0.04, 1.0),
@@ -191,7 +191,7 @@ impl Measure {
             Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::StillChannels => "number of measured forces with a channel that has one value all the time",
+            Measure::LostForces => "number of measured forces that are missing in part, clipped or lost for a time",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
@@ -263,7 +263,7 @@ impl Measure {
             | Measure::UnmeasuredLeg
             | Measure::UnassignedForces
             | Measure::SilentPlates
-            | Measure::StillChannels
+            | Measure::LostForces
             | Measure::ForceDirections
             | Measure::ScaleFactors
             | Measure::WhoseMarkers

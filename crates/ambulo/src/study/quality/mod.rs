@@ -149,8 +149,8 @@ pub(super) struct QualityEvidence<'a> {
     pub(super) mass: &'a BodyMass,
     /// Stature [m].
     pub(super) height_m: f64,
-    /// Messages about force plates, and forces of a table, with channels that never move.
-    pub(super) still_channels: Vec<String>,
+    /// Messages about force plates, and forces of a table, of which a part is missing.
+    pub(super) lost_forces: Vec<String>,
     pub(super) not_measured: &'a [(CoordinateId, bool)],
     pub(super) model: &'a Model,
     pub(super) idle: &'a IdleForces,
@@ -175,7 +175,7 @@ impl QualityEvidence<'_> {
     pub(super) fn quality(&self) -> Quality {
         let of_forces = [self.residual_force(), self.residual_moment(), self.ground_forces(), self.measured_forces()];
         let of_body = [self.marker_fit(), self.trunk_fit(), self.scaling(), self.scale_factors(), self.mass()];
-        let of_size = [self.body_mass_index(), self.still_channels()];
+        let of_size = [self.body_mass_index(), self.lost_forces()];
         let of_person = [self.whose_markers(), self.unmeasured()];
         let of_motion = [self.gaps(), self.jumps(), self.frame_rate(), self.cutoff(), self.bandwidth()];
         let of_feet =
@@ -394,10 +394,10 @@ impl QualityEvidence<'_> {
     }
 
     /// A part of the measured force is missing.
-    fn still_channels(&self) -> Option<QualityReason> {
-        let still = self.still_channels.iter().filter(|_| is_used(&self.force_origin));
-        let messages: Vec<&str> = still.map(String::as_str).collect();
-        Measure::StillChannels.reason(messages.len() as f64, |_| messages.join("; "))
+    fn lost_forces(&self) -> Option<QualityReason> {
+        let lost = self.lost_forces.iter().filter(|_| is_used(&self.force_origin));
+        let messages: Vec<&str> = lost.map(String::as_str).collect();
+        Measure::LostForces.reason(messages.len() as f64, |_| messages.join("; "))
     }
 
     fn gaps(&self) -> Option<QualityReason> {
