@@ -1,6 +1,8 @@
 //! Inputs of a calling program in addition to the words of a command line.
 
+use ambulo::optimal::Observer;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,9 +13,9 @@ use std::time::Instant;
 pub struct Caller {
     /// Content of input files by the names that the words use. These files are not read from the disk.
     pub files: BTreeMap<PathBuf, Arc<[u8]>>,
-    /// Set by another thread to stop after the stage that is being computed.
+    /// Set by another thread to stop after the stage, or the step of a solver, that is being computed.
     pub stop: Arc<AtomicBool>,
-    /// The computation also stops after the stage that this instant is in.
+    /// The computation also stops after the stage or the step that this instant is in.
     pub deadline: Option<Instant>,
 }
 
@@ -24,6 +26,15 @@ impl Caller {
 
     pub(crate) fn has_file(&self, path: &Path) -> bool {
         self.files.contains_key(path) || path.is_file()
+    }
+
+    /// Stops a solver when the computation is to stop; `tell` gets the number of its steps so far.
+    pub(crate) fn observer(&self, tell: impl Fn(usize) + Send + Sync + 'static) -> Observer {
+        let caller = self.clone();
+        Observer::new(move |steps| {
+            tell(steps);
+            if caller.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
     }
 
     pub(crate) fn is_stopped(&self) -> bool {

@@ -1,10 +1,9 @@
 //! Why a call failed, in parts: what the command prints, and where.
 
+use crate::caller::Caller;
 use crate::files::NoSuchFile;
 use crate::hints::causes;
 use crate::printer;
-use ambulo::analysis::Stopped;
-use ambulo::simulation::scene::RunError;
 use ambulo_results::ResultsError;
 use std::io;
 
@@ -28,6 +27,11 @@ pub struct Failure {
 impl Failure {
     pub(crate) fn refused(message: String) -> Failure {
         Failure { message, hint: None, file: None, line: None, system: None, stopped: false }
+    }
+
+    /// The failure of a computation that a caller may have stopped.
+    pub(crate) fn of_caller(error: anyhow::Error, caller: &Caller) -> Failure {
+        Failure { stopped: caller.is_stopped(), ..Failure::from(error) }
     }
 
     /// The same, with the name of the file if the message begins with one of these.
@@ -54,10 +58,7 @@ impl From<anyhow::Error> for Failure {
         let (message, hint) = printer::error_parts(&error);
         let missing = causes(&error).any(|cause| cause.is::<NoSuchFile>()).then_some(io::ErrorKind::NotFound);
         let of_system = || causes(&error).find_map(|cause| Some(cause.downcast_ref::<io::Error>()?.kind()));
-        let is_scene = |cause: &RunError| matches!(cause, RunError::Stopped { .. });
-        let stopped =
-            causes(&error).any(|cause| cause.is::<Stopped>() || cause.downcast_ref::<RunError>().is_some_and(is_scene));
-        Failure { hint, system: missing.or_else(of_system), stopped, ..Failure::refused(message) }
+        Failure { hint, system: missing.or_else(of_system), ..Failure::refused(message) }
     }
 }
 

@@ -60,7 +60,7 @@ pub fn printed(words: Vec<OsString>, caller: &Caller) -> Result<String, Failure>
     let (text, done) = printer::caught(|| execute(Args::try_parse_from(words)?.command, caller));
     done.map(|_| text).map_err(|error| match error.downcast_ref::<clap::Error>() {
         Some(refused) => Failure::refused(refused.to_string().trim_start_matches("error: ").trim_end().to_owned()),
-        None => Failure::from(error).in_one_of(names.iter().map(String::as_str)),
+        None => Failure::of_caller(error, caller).in_one_of(names.iter().map(String::as_str)),
     })
 }
 

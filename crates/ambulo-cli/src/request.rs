@@ -305,7 +305,7 @@ impl Request {
         let files = self.files();
         let computed = self.handled(Handling::quiet(existing)).computed(caller);
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        computed.map_err(|error| Failure::from(error).in_one_of(names.iter().map(String::as_str)))
+        computed.map_err(|error| Failure::of_caller(error, caller).in_one_of(names.iter().map(String::as_str)))
     }
 
     fn computed(&self, caller: &Caller) -> Result<Answer> {

@@ -21,7 +21,8 @@ use ambulo_walk::walking::{GroundContact, Shoes};
 pub struct CorrectedMode {
     /// Step lengths and heights of the gaits; `None` takes the built-in gaits.
     steps: Option<PaperSettings>,
-    settings: ConsistentWalkSettings,
+    /// How walks are made consistent.
+    pub settings: ConsistentWalkSettings,
     cache: Vec<CachedWalk>,
 }
 
@@ -63,17 +64,8 @@ impl CorrectedMode {
         let gait = walk.walk();
         let duration_s = gait.cycle_s() * trial.cycles as f64;
         let recording = walk.walker(human, &ground)?.walk(&steps, duration_s, &mut Findings::default())?;
-        Ok(Run {
-            recording,
-            gait: gait.name().to_owned(),
-            shoes: if trial.shoes == Footwear::Own { Footwear::Soft } else { trial.shoes },
-            leg_length: human.dimensions.leg_length,
-            soles: human.soles.clone(),
-            cycle_s: gait.cycle_s(),
-            speed: gait.speed(),
-            step_length: gait.step_length(),
-            foot_off: gait.phases(&gait.clock(0.0)).foot_off,
-        })
+        let shoes = if trial.shoes == Footwear::Own { Footwear::Soft } else { trial.shoes };
+        Ok(Run::of(gait, human, recording, shoes))
     }
 
     fn find_or_make(&mut self, trial: &TrialSettings<'_>) -> Result<usize, ReproductionError> {

@@ -5,7 +5,7 @@ use super::paper_settings::PaperSettings;
 use ambulo_body::findings::Findings;
 use ambulo_body::model::anthropometry::{ContactSphere, Human};
 use ambulo_walk::engine::{ImpactLaw, StepSettings};
-use ambulo_walk::gait::{Gait, Walk};
+use ambulo_walk::gait::{Gait, Phases, Walk};
 use ambulo_walk::walking::{GroundContact, Shoes, WalkRecording, Walker};
 
 /// The settings of a walk that a claim needs.
@@ -59,6 +59,23 @@ pub struct Run {
     pub foot_off: f64,
 }
 
+impl Run {
+    pub(crate) fn of(walk: &Walk, human: &Human, recording: WalkRecording, shoes: Footwear) -> Run {
+        let Phases { foot_off, .. } = walk.phases(&walk.clock(0.0));
+        Run {
+            recording,
+            gait: walk.name().to_owned(),
+            shoes,
+            soles: human.soles.clone(),
+            cycle_s: walk.cycle_s(),
+            leg_length: human.dimensions.leg_length,
+            speed: walk.speed(),
+            step_length: walk.step_length(),
+            foot_off,
+        }
+    }
+}
+
 /// A mode: simulates a walk with given settings.
 pub type Mode<'a> = dyn FnMut(&TrialSettings<'_>) -> Result<Run, ReproductionError> + 'a;
 
@@ -85,15 +102,5 @@ pub fn paper_walk_with(settings: &PaperSettings, trial: &TrialSettings<'_>) -> R
     let walker = Walker::new(&human, signals, &ground, walk.speed())?;
     let steps = StepSettings { step_s: 1.0 / trial.rate_hz, ..StepSettings::default() };
     let recording = walker.walk(&steps, duration_s, &mut findings)?;
-    Ok(Run {
-        recording,
-        gait: walk.name().to_owned(),
-        shoes: footwear,
-        leg_length: human.dimensions.leg_length,
-        soles: human.soles,
-        cycle_s: walk.cycle_s(),
-        speed: walk.speed(),
-        step_length: walk.step_length(),
-        foot_off: walk.phases(&walk.clock(0.0)).foot_off,
-    })
+    Ok(Run::of(&walk, &human, recording, footwear))
 }

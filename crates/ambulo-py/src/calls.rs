@@ -113,7 +113,7 @@ fn answered<'py>(
 }
 
 /// Computes in a separate thread, without the lock of the interpreter. Ctrl-C raises `KeyboardInterrupt` at once; the
-/// computation ends after its present stage, and its result is dropped.
+/// computation ends after its present stage or step, and its result is dropped.
 fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     stop: Arc<AtomicBool>,

@@ -171,6 +171,7 @@ import os; os._exit(0)
 LEFT_BEHIND = {
     "tune": "ambulo.tune(SCENE, FOLDER / 'gains.toml', evaluations=100000, jobs=1)",
     "reproduce": "ambulo.reproduce(FOLDER / 'paper')",
+    "walk": "ambulo.walk(mode='corrected', speed_change=[f'{4 * k}:{1.1 + 0.3 * (k % 2)}:2' for k in range(1, 2000)])",
     "simulate": "ambulo.simulate(SCENE.parent / 'pendulum.toml', duration=20000, step=1e-4)",
 }
 

@@ -2,6 +2,7 @@
 
 use ambulo_walk::control::{ControlSettings, WalkController};
 use ambulo_walk::findings::Findings;
+use ambulo_walk::optimal::Observer;
 use ambulo_walk::scene::{ControlledFigure, SceneFile};
 use ambulo_walk::tuning::{Gain, Push, PushSettings, PushUse, TrialOutcome, Tuning, TuningProblem};
 
@@ -13,7 +14,7 @@ fn controlled(control: &str) -> ControlledFigure {
     );
     let mut none = |path: &str| -> Result<Vec<u8>, String> { Err(path.to_owned()) };
     let file = SceneFile::parse(&text).unwrap();
-    ControlledFigure::of(&file, Some("ann"), &mut none, &mut Findings::default()).unwrap()
+    ControlledFigure::of(&file, Some("ann"), &mut none, &Observer::default(), &mut Findings::default()).unwrap()
 }
 
 #[test]

@@ -209,7 +209,7 @@ fn ground_forces_explain_the_change_of_momentum() {
 #[test]
 fn heavier_people_on_stiffer_shoes_walk_the_same_way() {
     let settings = ConsistentWalkSettings::default();
-    let mut stiffer = settings;
+    let mut stiffer = settings.clone();
     stiffer.shoes.stiffness *= 1.6;
     let (light, heavy) = (human(60.0), human(96.0));
     let (a, b) = (consistent(&light, &free_walk(&light), &settings), consistent(&heavy, &free_walk(&heavy), &stiffer));

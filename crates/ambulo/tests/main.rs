@@ -125,6 +125,7 @@ mod opensim_joints;
 mod opensim_parity;
 mod optimal;
 mod optimal_movements;
+mod optimal_observer;
 mod optimal_prediction;
 mod optimal_standing;
 mod optimal_track;

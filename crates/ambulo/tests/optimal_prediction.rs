@@ -8,9 +8,9 @@ use ambulo::model::anthropometry::{Build, Human, SegmentTable};
 use ambulo::model::{Movement, Side};
 use ambulo::numerics::correlation;
 use ambulo::optimal::{
-    Bound, Continuation, Device, ECCENTRIC, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, OptimalWalk, OptimalWalkError,
-    Prediction, Quantity, STAGES, Solution, Span, StrengthCurve, Term, WalkConditions, WalkCosts, WalkProblem,
-    metabolic_power,
+    Bound, Continuation, Device, ECCENTRIC, EffortCosts, Load, LoadPlace, NO_ROOT_FORCE, Observer, OptimalWalk,
+    OptimalWalkError, Prediction, Quantity, STAGES, Solution, Span, StrengthCurve, Term, WalkConditions, WalkCosts,
+    WalkProblem, metabolic_power,
 };
 use std::sync::LazyLock;
 
@@ -281,7 +281,7 @@ fn weak_ankles_push_less_and_hips_work_more() {
 fn a_free_cadence_is_near_that_of_people_and_costs_no_more() {
     let (walk, usual) = &*SPATIAL;
     let conditions = WalkConditions { free_cadence: true, ..WalkConditions::default() };
-    let (free, own) = OptimalWalk::predict_freely(&MAN, walk, &conditions).unwrap();
+    let (free, own) = OptimalWalk::predict_freely(&MAN, walk, &conditions, &Observer::default()).unwrap();
     // The usual cadence gets as many steps of the solver.
     let further = [(2, 0.0002), (6, 0.00003)].map(|(updates, slack)| Continuation {
         stiffness: 1.0,

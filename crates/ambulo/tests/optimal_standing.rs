@@ -7,7 +7,7 @@ use ambulo::kinematics::{Posture, PostureSweep};
 use ambulo::model::anthropometry::{Build, Human, SegmentTable, SpherePart};
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Movement, Side};
-use ambulo::optimal::{NO_ROOT_FORCE, OptimalWalk, STAGES, Sample, Solution, StandingMovements};
+use ambulo::optimal::{NO_ROOT_FORCE, Observer, OptimalWalk, STAGES, Sample, Solution, StandingMovements};
 use ambulo::simulation::consistent_walk::{ConsistentWalkSettings, make_consistent_walk};
 
 const G: f64 = 9.80665;
@@ -209,7 +209,7 @@ fn slow(build: &Build, lift_m: f64) -> OptimalWalk {
     let mut gait = Gait::named("free").unwrap();
     gait.pace.speed = Some(Speed::MetersPerSecond(StandingMovements::speed(&planar)));
     let walk = Walk::new(&gait, planar.dimensions.leg_length, &mut Findings::default()).unwrap();
-    OptimalWalk::find_lifted(build, &walk, lift_m).unwrap()
+    OptimalWalk::find_lifted(build, &walk, lift_m, &Observer::default()).unwrap()
 }
 
 fn cost(movement: &Solution) -> f64 {

@@ -42,6 +42,7 @@ pub(crate) fn run(args: &ReproduceArgs, caller: &Caller) -> Result<Completion> {
     let mut mode = |trial: &TrialSettings<'_>| unless_stopped(caller, trial, &mut |trial| setting.walk(trial));
     let paper = gather("the paper's mode", &mut mode, &clock, args)?;
     let mut corrected_mode = CorrectedMode::of(&setting);
+    corrected_mode.settings.observer = caller.observer(|_| ());
     let mut mode = |trial: &TrialSettings<'_>| unless_stopped(caller, trial, &mut |trial| corrected_mode.walk(trial));
     let corrected = gather("the corrected mode", &mut mode, &clock, args)?;
     printer::progress("loops, obstacles, grasping, hand in hand, and a walk by own torques", args.print);

@@ -136,9 +136,13 @@ fn scene_files(
 /// Builds the scene and reads every file that it names; adds their paths to `inputs`.
 fn build(args: &SimulateArgs, caller: &Caller, inputs: &mut Vec<PathBuf>, findings: &mut Findings) -> Result<Scene> {
     let file = read_scene(&args.scene, caller)?;
-    let changes = SceneSettings { step_s: args.step, duration_s: args.duration };
+    let print = args.print;
+    let observer = caller.observer(move |steps| printer::solver_steps(Some(steps), print));
+    let changes = SceneSettings { step_s: args.step, duration_s: args.duration, observer };
     let mut load = |path: &str| read_named(&args.scene, path, caller, inputs);
-    Scene::build(&file, changes, &mut load, findings).with_context(|| args.scene.display().to_string())
+    let scene = Scene::build(&file, changes, &mut load, findings);
+    printer::solver_steps(None, print);
+    scene.with_context(|| args.scene.display().to_string())
 }
 
 /// Reads a scene file.

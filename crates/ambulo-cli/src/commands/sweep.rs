@@ -11,8 +11,8 @@ use ambulo::analysis::feasibility::VerdictState;
 use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Walk, walking_speeds};
 use ambulo::model::anthropometry::Build;
-use ambulo::optimal::{Device, Load, WalkConditions};
-use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, predict, synthesise};
+use ambulo::optimal::{Device, Load, Observer, WalkConditions};
+use ambulo::simulation::synthetic::{SyntheticMode, SyntheticWalkSettings, predict_observed, synthesise_observed};
 use ambulo::study::{self, Settings};
 use ambulo_report::{SweptConditions, SweptWalk, WalkCurves, sweep_files};
 use ambulo_results::{Keep, OutputFile, summary_json};
@@ -189,7 +189,7 @@ impl Sweep {
         let done = AtomicUsize::new(0);
         let walks = side_by_side(self.points.len(), processors(), |place| {
             let point = self.points.get(place).filter(|_| !caller.is_stopped())?;
-            let found = self.walk(point).map_err(|error| format!("{error:#}"));
+            let found = self.walk(point, &caller.observer(|_| ())).map_err(|error| format!("{error:#}"));
             let count = done.fetch_add(1, Ordering::Relaxed) + 1;
             printer::progress(&format!("{count} of {} walks", self.points.len()), args.print);
             Some(SweptWalk { conditions: *point, found })
@@ -198,7 +198,7 @@ impl Sweep {
     }
 
     /// One walk, with its forces computed as for a recording.
-    fn walk(&self, point: &SweptConditions) -> Result<WalkCurves> {
+    fn walk(&self, point: &SweptConditions, observer: &Observer) -> Result<WalkCurves> {
         let mut findings = Findings::default();
         let pace = self.gait.pace.with(Some(point.speed_m_s), None, None);
         let gait = Gait { pace, ..self.gait.clone() };
@@ -218,9 +218,9 @@ impl Sweep {
         let walk = if self.mode == SyntheticMode::Predicted {
             let load = self.load.filter(|_| point.load_kg.abs() > 0.0).map(|load| Load { mass: point.load_kg, ..load });
             let conditions = WalkConditions { slope: point.slope_percent / 100.0, load, ..self.conditions.clone() };
-            predict(&settings, &conditions, &mut findings)?
+            predict_observed(&settings, &conditions, observer, &mut findings)?
         } else {
-            synthesise(&settings, &mut findings)?
+            synthesise_observed(&settings, observer, &mut findings)?
         };
         let outcome = study::run(source(&walk, self.mode), &Settings::default(), &mut findings)?;
         let cost = walk.report.prediction.as_ref().map(|prediction| prediction.metabolic_power / walk.report.speed);

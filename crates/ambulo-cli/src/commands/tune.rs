@@ -23,7 +23,7 @@ pub(crate) fn run(args: &TuneArgs, caller: &Caller) -> Result<Completion> {
     let mut inputs = vec![args.scene.clone()];
     let state = args.output.with_extension("state.json");
     check_targets(args, &state)?;
-    let figure = controlled(args, &mut inputs)?;
+    let figure = controlled(args, caller, &mut inputs)?;
     for path in [&args.output, &state] {
         // An input is refused whatever the options.
         files::check_target(path, &inputs, Existing::Replaced)?;
@@ -66,12 +66,12 @@ fn check_targets(args: &TuneArgs, state: &Path) -> Result<()> {
 }
 
 /// The figure with its plan; adds the files that its walk names to `inputs`.
-fn controlled(args: &TuneArgs, inputs: &mut Vec<PathBuf>) -> Result<ControlledFigure> {
-    let caller = Caller::default();
-    let file = read_scene(&args.scene, &caller)?;
-    let mut load = |path: &str| read_named(&args.scene, path, &caller, inputs);
+fn controlled(args: &TuneArgs, caller: &Caller, inputs: &mut Vec<PathBuf>) -> Result<ControlledFigure> {
+    let file = read_scene(&args.scene, caller)?;
+    let mut load = |path: &str| read_named(&args.scene, path, caller, inputs);
     printer::progress("planning the walk", args.print);
-    ControlledFigure::of(&file, args.figure.as_deref(), &mut load, &mut Findings::default())
+    let observer = caller.observer(|_| ());
+    ControlledFigure::of(&file, args.figure.as_deref(), &mut load, &observer, &mut Findings::default())
         .with_context(|| args.scene.display().to_string())
 }
 

@@ -17,7 +17,8 @@ use ambulo::motion::RecordedTable;
 use ambulo::numerics::{NaturalSpline, Order};
 use ambulo::optimal::{Device, WalkConditions};
 use ambulo::simulation::synthetic::{
-    SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, predict, replay, run_of_states, synthesise,
+    SyntheticError, SyntheticMode, SyntheticWalk, SyntheticWalkSettings, predict_observed, replay, run_of_states,
+    synthesise_observed,
 };
 use ambulo::simulation::walking::TorqueSeries;
 use ambulo::study::{self, CompleteMotion, Recording, Settings, Source, Stage};
@@ -96,13 +97,18 @@ fn walked(
     let Described { gait, name, build, conditions, read, gait_file } = walk;
     let gait = if mode == SyntheticMode::Corrected { style_for_correction(gait, &name, &args.gait) } else { gait };
     let walk_settings = shaped(&gait, build, mode, args);
-    let walk = match &torques {
+    let print = args.print;
+    let observer = caller.observer(move |steps| printer::solver_steps(Some(steps), print));
+    let mut walk = match &torques {
         Some(torques) => replay(&walk_settings, torques, &mut findings),
-        None if mode == SyntheticMode::Predicted => predict(&walk_settings, &conditions, &mut findings),
-        None => synthesise(&walk_settings, &mut findings),
+        None if mode == SyntheticMode::Predicted => {
+            predict_observed(&walk_settings, &conditions, &observer, &mut findings)
+        }
+        None => synthesise_observed(&walk_settings, &observer, &mut findings),
     };
-    let mut walk = in_file(walk, gait_file.as_ref())?;
-    walk.compare_without_devices();
+    walk.iter_mut().for_each(|walk| walk.compare_without_devices(&observer));
+    printer::solver_steps(None, print);
+    let walk = in_file(walk, gait_file.as_ref())?;
     clock.lap("walk");
     let run = SyntheticRun {
         walk: &walk,

@@ -39,7 +39,7 @@ use anyhow::Result;
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::fmt::Arguments;
-use std::io::{ErrorKind, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use std::path::Path;
 
 /// Prints a line on standard output. A closed pipe (`ambulo ... | head`) is not an error.
@@ -168,6 +168,15 @@ fn chain(error: &anyhow::Error) -> String {
 pub(crate) fn progress(what: &str, print: PrintArgs) {
     if !print.quiet && !print.json {
         say(format_args!("{what} ..."));
+    }
+}
+
+/// Shows on a terminal how many steps a solver has made, on one line; `None` clears that line.
+pub(crate) fn solver_steps(steps: Option<usize>, print: PrintArgs) {
+    if !print.quiet && !print.json && stderr().is_terminal() {
+        let text = steps.map_or_else(String::new, |steps| format!("finding the walk, step {steps}"));
+        // As in `say`, the computation continues if this cannot be written.
+        let _ = write!(stderr(), "{text:<40}\r");
     }
 }
 

@@ -716,7 +716,8 @@ def walk(
 
     Notes
     -----
-    Other threads run meanwhile. Methods and sources: docs/GAITS.md for the curves, docs/OPTIMAL.md and docs/CORRECTED_WALK.md for the walks.
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the search for the walk ends after its present step. Methods and
+    sources: docs/GAITS.md for the curves, docs/OPTIMAL.md and docs/CORRECTED_WALK.md for the walks.
     """
     changes = {"speed_change": speed_change, "step_length_change": step_length_change, "cadence_change": cadence_change}
     fields = {
@@ -850,7 +851,7 @@ def sweep(
 
     Notes
     -----
-    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the walks that are being computed are finished before the threads end. Methods and
+    Other threads run meanwhile. Ctrl-C raises `KeyboardInterrupt`; the searches for walks end after their present steps. Methods and
     sources: docs/OPTIMAL.md.
     """
     swept = {"speed": speed, "mass": mass, "height": height, "slope": slope, "load": load}

@@ -43,7 +43,8 @@ struct Change {
 /// Makes a walk with changes of pace consistent.
 ///
 /// # Errors
-/// If the figure has joints that are not hinges or slides, or the built-in laws cannot be read.
+/// If the figure has joints that are not hinges or slides, or the built-in laws cannot be read; an observer that stops
+/// the solver.
 pub fn make_changing_walk(
     human: &Human,
     walk: &Walk,
@@ -115,6 +116,7 @@ impl ChangingWalk {
         };
         let passage = Passage { change: number, start_s: ramp.start_s, duration_s, ends: [before, after] };
         let problem = WalkProblem::passage(human, &human.soles, settings.shoes, &walk, &settings.changes, &passage)?;
+        let problem = problem.observed_by(&settings.observer);
         let solution = problem.solve_coarse_first(&FINE_STAGES)?;
         Ok(Change { start_s: ramp.start_s, duration_s, paces, solution })
     }
@@ -122,8 +124,9 @@ impl ChangingWalk {
     /// Solves how the figure stands at a time [s], once.
     fn stand(&mut self, human: &Human, settings: &ConsistentWalkSettings, time_s: f64) -> Result<(), OptimalWalkError> {
         if self.standing.is_none() {
-            let ConsistentWalkSettings { shoes, costs, .. } = settings;
+            let ConsistentWalkSettings { shoes, costs, observer, .. } = settings;
             let problem = WalkProblem::standing(human, &human.soles, *shoes, &self.walk, costs, time_s)?;
+            let problem = problem.observed_by(observer);
             let solution = problem.solve(&STAGES)?;
             self.standing = Some((problem, solution));
         }

@@ -1,10 +1,10 @@
 //! Settings of a dynamically consistent walk.
 
 use crate::contact::HuntCrossley;
-use crate::optimal::WalkCosts;
+use crate::optimal::{Observer, WalkCosts};
 
 /// Settings of [`make_consistent_walk`](super::make_consistent_walk).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ConsistentWalkSettings {
     /// Contact law of the soles.
     pub shoes: HuntCrossley,
@@ -12,6 +12,8 @@ pub struct ConsistentWalkSettings {
     pub costs: WalkCosts,
     /// Costs while the pace changes.
     pub changes: WalkCosts,
+    /// Follows the steps of the solver and may stop them.
+    pub observer: Observer,
 }
 
 impl Default for ConsistentWalkSettings {
@@ -20,6 +22,7 @@ impl Default for ConsistentWalkSettings {
             shoes: HuntCrossley::SOFT_SHOES,
             costs: WalkCosts::planar(),
             changes: WalkCosts::change_of_pace(),
+            observer: Observer::default(),
         }
     }
 }

@@ -26,7 +26,7 @@ pub struct ConsistentWalk {
 ///
 /// # Errors
 /// If the figure has joints that are not hinges or slides, the machines of the gait do not repeat what they do, or the
-/// built-in laws cannot be read.
+/// built-in laws cannot be read; an observer that stops the solver.
 pub fn make_consistent_walk(
     human: &Human,
     walk: &Walk,
@@ -37,6 +37,7 @@ pub fn make_consistent_walk(
     }
     let span = if walk.is_symmetric() { Span::MirroredHalfCycle } else { Span::Cycle };
     let problem = WalkProblem::over(span, human, &human.soles, settings.shoes, walk, &settings.costs)?;
+    let problem = problem.observed_by(&settings.observer);
     let stages: &[Continuation] = if walk.gait().follows_people() { &STAGES } else { &FINE_STAGES };
     let solution = problem.solve_coarse_first(stages)?;
     Ok(ConsistentWalk { walk: walk.clone(), problem, solution })

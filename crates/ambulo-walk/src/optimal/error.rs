@@ -136,6 +136,12 @@ pub enum OptimalWalkError {
     /// A change of pace without a motion before or after it.
     #[error("found a change of pace without a motion before or after it; expected one on both sides")]
     Order,
+    /// The caller asked to stop.
+    #[error("the solver was stopped after {steps} steps")]
+    Stopped {
+        /// Number of steps made.
+        steps: usize,
+    },
 }
 
 /// Name of the movement of steps out of standing.

@@ -4,6 +4,7 @@ use super::conditions::WalkConditions;
 use super::error::{LARGEST_BETWEEN, OptimalWalkError};
 use super::layout::Span;
 use super::muscles::EffortCosts;
+use super::observer::Observer;
 use super::plan::WalkPlan;
 use super::problem::Problem;
 use super::solution::Solution;
@@ -43,7 +44,16 @@ impl OptimalWalk {
     /// # Errors
     /// A figure that cannot be built; no motion without outside forces.
     pub fn find(build: &Build, walk: &Walk) -> Result<OptimalWalk, OptimalWalkError> {
-        let (human, problem) = posed(build, walk)?;
+        OptimalWalk::find_observed(build, walk, &Observer::default())
+    }
+
+    /// As [`OptimalWalk::find`], followed by an observer.
+    pub(crate) fn find_observed(
+        build: &Build,
+        walk: &Walk,
+        observer: &Observer,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let (human, problem) = posed(build, walk, observer)?;
         if let Some(plan) = WalkPlan::of(build, walk)? {
             let solution = problem.problem.at(&plan.coefficients)?;
             if solution.unbalanced(LARGEST_ROOT_FORCE).is_none() {
@@ -51,27 +61,32 @@ impl OptimalWalk {
             }
         }
         if let Some((plan, near)) = WalkPlan::nearest(build.table, walk)? {
-            let (_, known) = posed(&plan.build, &near)?;
+            let (_, known) = posed(&plan.build, &near, observer)?;
             let found = OptimalWalk::level(human, problem.clone(), problem.solve_near(&known, &plan.coefficients)?);
             if found.check(walk).is_ok() {
                 return Ok(found);
             }
         }
-        OptimalWalk::find_with(build, walk, &SPATIAL_STAGES)
+        OptimalWalk::from_laws(build, walk, &SPATIAL_STAGES, observer)
     }
 
     /// As [`OptimalWalk::find`], with soles that are lifted further than usual, by `lift_m` in the middle of swing.
     ///
     /// # Errors
-    /// As [`OptimalWalk::find`].
-    pub fn find_lifted(build: &Build, walk: &Walk, lift_m: f64) -> Result<OptimalWalk, OptimalWalkError> {
-        let known = OptimalWalk::find(build, walk)?;
+    /// As [`OptimalWalk::find`]; an observer that stops the solver.
+    pub fn find_lifted(
+        build: &Build,
+        walk: &Walk,
+        lift_m: f64,
+        observer: &Observer,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let known = OptimalWalk::find_observed(build, walk, observer)?;
         if lift_m <= 0.0 {
             return Ok(known);
         }
         let Problem { soles, shoes, .. } = &known.problem.problem;
         let costs = WalkCosts { lift: lift_m, ..WalkCosts::default() };
-        let problem = WalkProblem::new(&known.human, soles, *shoes, walk, &costs)?;
+        let problem = WalkProblem::new(&known.human, soles, *shoes, walk, &costs)?.observed_by(observer);
         let solution = problem.solve_near(&known.problem, known.solution.unknowns())?;
         let found = OptimalWalk::level(known.human, problem, solution);
         found.check(walk)?;
@@ -89,7 +104,16 @@ impl OptimalWalk {
     /// # Errors
     /// As [`OptimalWalk::find`].
     pub fn find_with(build: &Build, walk: &Walk, stages: &[Continuation]) -> Result<OptimalWalk, OptimalWalkError> {
-        let (human, problem) = posed(build, walk)?;
+        OptimalWalk::from_laws(build, walk, stages, &Observer::default())
+    }
+
+    fn from_laws(
+        build: &Build,
+        walk: &Walk,
+        stages: &[Continuation],
+        observer: &Observer,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let (human, problem) = posed(build, walk, observer)?;
         let solution = problem.solve(stages)?;
         let found = OptimalWalk::level(human, problem, solution);
         found.check(walk)?;
@@ -106,7 +130,17 @@ impl OptimalWalk {
     /// # Errors
     /// As [`OptimalWalk::find`]; conditions that do not fit the figure; muscles that are too weak.
     pub fn predict(build: &Build, walk: &Walk, conditions: &WalkConditions) -> Result<OptimalWalk, OptimalWalkError> {
-        let followed = OptimalWalk::find(build, walk)?;
+        OptimalWalk::predict_observed(build, walk, conditions, &Observer::default())
+    }
+
+    /// As [`OptimalWalk::predict`], followed by an observer.
+    pub(crate) fn predict_observed(
+        build: &Build,
+        walk: &Walk,
+        conditions: &WalkConditions,
+        observer: &Observer,
+    ) -> Result<OptimalWalk, OptimalWalkError> {
+        let followed = OptimalWalk::find_observed(build, walk, observer)?;
         let conditions = conditions.checked(&followed.human.model)?;
         let human = conditions.figure(&followed.human)?;
         let (start, unknowns) = if conditions.is_symmetric() && !conditions.asymmetric {
@@ -116,6 +150,7 @@ impl OptimalWalk {
             let soles = &followed.problem.problem.soles;
             let costs = WalkCosts::default();
             let whole = WalkProblem::over(Span::Cycle, &followed.human, soles, shoes, walk, &costs)?;
+            let whole = whole.observed_by(observer);
             let unknowns = whole.problem.fitted(&followed.without_travel(&whole.problem));
             (whole, unknowns)
         };
@@ -165,9 +200,9 @@ impl OptimalWalk {
 }
 
 /// A figure in three dimensions on soft shoes, and the problem of its walk.
-fn posed(build: &Build, walk: &Walk) -> Result<(Human, WalkProblem), OptimalWalkError> {
+fn posed(build: &Build, walk: &Walk, observer: &Observer) -> Result<(Human, WalkProblem), OptimalWalkError> {
     let human = full_body(build)?;
     let soles = soles_with_width(&human);
     let problem = WalkProblem::new(&human, &soles, HuntCrossley::SOFT_SHOES, walk, &WalkCosts::default())?;
-    Ok((human, problem))
+    Ok((human, problem.observed_by(observer)))
 }

@@ -10,6 +10,7 @@ use super::conditions::WalkConditions;
 use super::error::OptimalWalkError;
 use super::find::OptimalWalk;
 use super::muscles::EffortCosts;
+use super::observer::Observer;
 use super::solve::Continuation;
 use super::walk::{WalkCosts, WalkProblem};
 use crate::findings::Findings;
@@ -47,9 +48,13 @@ impl Tried {
     }
 
     /// The walk at another cadence; `None` if there is none.
-    fn at(&self, build: &Build, gait: &Gait, place: i32) -> Option<Tried> {
-        let walk = Walk::new(gait, self.walk.leg_length(), &mut Findings::default()).ok()?;
-        Tried::new(place, self.found.near(build, &walk).ok()?, walk).ok()
+    fn at(&self, build: &Build, gait: &Gait, place: i32) -> Result<Option<Tried>, OptimalWalkError> {
+        let walk = Walk::new(gait, self.walk.leg_length(), &mut Findings::default());
+        let Ok(walk) = walk else { return Ok(None) };
+        match self.found.near(build, &walk).and_then(|found| Tried::new(place, found, walk)) {
+            Err(stopped @ OptimalWalkError::Stopped { .. }) => Err(stopped),
+            tried => Ok(tried.ok()),
+        }
     }
 }
 
@@ -58,24 +63,27 @@ impl OptimalWalk {
     /// with this cadence. The speed stays.
     ///
     /// # Errors
-    /// As [`OptimalWalk::predict`]. Other cadences at which no walk is found are not chosen.
+    /// As [`OptimalWalk::predict`]; an observer that stops the solver. Other cadences at which no walk is found are not
+    /// chosen.
     pub fn predict_freely(
         build: &Build,
         walk: &Walk,
         conditions: &WalkConditions,
+        observer: &Observer,
     ) -> Result<(OptimalWalk, Walk), OptimalWalkError> {
         let gait = |steps: f64| {
             let steps_s = 2.0 * (1.0 + STEP * steps) / walk.cycle_s();
             let pace = walk.gait().pace.with(Some(walk.speed()), None, Some(steps_s));
             Gait { pace, ..walk.gait().clone() }
         };
-        let mut tried = vec![Tried::new(0, OptimalWalk::predict(build, walk, conditions)?, walk.clone())?];
+        let found = OptimalWalk::predict_observed(build, walk, conditions, observer)?;
+        let mut tried = vec![Tried::new(0, found, walk.clone())?];
         let mut best = 0;
         loop {
             let place = tried[best].place;
             for beside in [place - 1, place + 1] {
                 if beside.abs() <= FARTHEST && tried.iter().all(|known| known.place != beside) {
-                    tried.extend(tried[best].at(build, &gait(f64::from(beside)), beside));
+                    tried.extend(tried[best].at(build, &gait(f64::from(beside)), beside)?);
                 }
             }
             let least = (0..tried.len()).min_by(|&a, &b| tried[a].cost.total_cmp(&tried[b].cost)).unwrap_or(best);
@@ -89,7 +97,7 @@ impl OptimalWalk {
         let at_vertex = match (cost(place - 1), cost(place + 1)) {
             (Some(slower), Some(faster)) => {
                 let steps = f64::from(place) + vertex(slower, tried[best].cost, faster);
-                tried[best].at(build, &gait(steps), place)
+                tried[best].at(build, &gait(steps), place)?
             }
             _ => None,
         };
@@ -102,6 +110,7 @@ impl OptimalWalk {
         let known = &self.problem.problem;
         let level = full_body(build)?;
         let base = WalkProblem::over(known.span, &level, &known.soles, known.shoes, walk, &WalkCosts::default())?;
+        let base = base.observed_by(&known.observer);
         let problem = base.of_muscles(&self.human, walk, &EffortCosts::default(), &self.conditions, 0.0);
         let known = self.solution.unknowns();
         let solution = match problem.approach(&self.problem, known, &problem.near_stages()[..COARSE])? {

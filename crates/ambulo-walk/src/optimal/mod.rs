@@ -12,7 +12,7 @@
 //!
 //! Cost: one inverse dynamics with derivatives per step and instant, and one factorisation of a band with a border per
 //! step. Not handled: obstacles, durations as unknowns (predictions compare several); slopes are inclined gravity.
-//! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs
+//! Pinned by: tests/optimal.rs, tests/optimal_prediction.rs, tests/optimal_movements.rs, tests/optimal_observer.rs
 
 pub(crate) mod layout;
 
@@ -22,6 +22,7 @@ pub(crate) mod objective;
 
 mod forward;
 mod normal;
+mod observer;
 pub(crate) mod problem;
 pub(crate) mod refine;
 mod solution;
@@ -56,6 +57,7 @@ pub use movement::{Key, MovementProblem, MovementSettings};
 pub use muscles::{EffortCosts, WORK_PRICES};
 pub use near::NEAR_STAGES;
 pub use objective::{Bound, Quantity, Term};
+pub use observer::Observer;
 pub use plan::WalkPlan;
 pub(crate) use predict::moment_at;
 pub use predict::{DeviceEffort, Prediction, metabolic_power};

@@ -6,11 +6,13 @@
 //! The motion in between follows from requirements and from the cost of muscles.
 
 use super::conditions::WalkConditions;
+use super::error::OptimalWalkError;
 use super::instant::{Evaluator, Instant};
 use super::layout::Span;
 use super::muscles::{EffortCosts, MuscleTerms};
 use super::near::{NEAR_STAGES, longer};
 use super::objective::{Bound, Quantity, Term};
+use super::observer::Observer;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
@@ -119,6 +121,7 @@ impl MovementProblem {
             instants_per_knot: PER_KNOT,
             length_m: human.dimensions.leg_length,
             terms: Vec::new(),
+            observer: Observer::default(),
         };
         let guess = first_guess(&problem, soles.len(), keys, flights_s)?;
         let last = guess.len() - 1;
@@ -181,19 +184,19 @@ impl MovementProblem {
     /// nothing supplies and [`Solution::overload`] for muscles that are too weak.
     ///
     /// # Errors
-    /// If the figure has joints that are not hinges or slides.
-    pub fn solve(&self) -> Result<Solution, CurvedJointError> {
+    /// If the figure has joints that are not hinges or slides, or the observer stops the solver.
+    pub fn solve(&self) -> Result<Solution, OptimalWalkError> {
         let near = self.guided(1.0)?.solve(&self.guess, &STAGES)?;
         self.unguided(&self.guided(LESS_GUIDED)?.solve(near.unknowns(), &longer(&NEAR_STAGES))?)
     }
 
     /// As [`MovementProblem::solve`], in less time, where the first guess is near the solution.
-    pub(super) fn solve_near_guess(&self) -> Result<Solution, CurvedJointError> {
+    pub(super) fn solve_near_guess(&self) -> Result<Solution, OptimalWalkError> {
         self.unguided(&self.guided(1.0)?.solve(&self.guess, &STAGES)?)
     }
 
     /// Solves the problem without the first guess, from a solution near it.
-    fn unguided(&self, guided: &Solution) -> Result<Solution, CurvedJointError> {
+    fn unguided(&self, guided: &Solution) -> Result<Solution, OptimalWalkError> {
         let stages = longer(&NEAR_STAGES);
         let on = Continuation::on(&stages);
         // Where the last stage alone is stuck, those before it lead out.

@@ -6,6 +6,7 @@
 //! Feet of this start slip by some mm/s and their soles are too deep or too high by fractions of a millimetre, which
 //! costs much with the final friction and slack; the first stages have less of both.
 
+use super::error::OptimalWalkError;
 use super::solution::Solution;
 use super::solve::Continuation;
 use super::walk::{WalkProblem, moves_sideways};
@@ -43,8 +44,8 @@ impl WalkProblem {
     /// Check [`Solution::progress`] or [`Solution::unbalanced`], as after [`WalkProblem::solve`].
     ///
     /// # Errors
-    /// If the figure has joints that are not hinges or slides.
-    pub fn solve_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Solution, CurvedJointError> {
+    /// As [`WalkProblem::solve`].
+    pub fn solve_near(&self, known: &WalkProblem, unknowns: &[f64]) -> Result<Solution, OptimalWalkError> {
         let stages = self.near_stages();
         let Some(found) = self.approach(known, unknowns, &stages)? else { return self.solve(self.stages()) };
         self.problem.balanced(found, &[&Continuation::on(&stages)], &self.kept)
@@ -67,7 +68,7 @@ impl WalkProblem {
         known: &WalkProblem,
         unknowns: &[f64],
         stages: &[Continuation],
-    ) -> Result<Option<Solution>, CurvedJointError> {
+    ) -> Result<Option<Solution>, OptimalWalkError> {
         let start = self.start_near(known, unknowns)?;
         start.map(|start| self.problem.solve_keeping(&start, stages, &self.kept)).transpose()
     }

@@ -6,6 +6,7 @@
 //! The costs are the costs of `muscles`, and the rates of joint moments.
 
 use super::conditions::{Device, WalkConditions};
+use super::error::OptimalWalkError;
 use super::muscles::{EffortCosts, MuscleTerms, WORK_PRICES, ahead_of};
 use super::near::{NEAR_STAGES, longer};
 use super::objective::{Bound, Quantity, Term};
@@ -40,7 +41,7 @@ impl WalkProblem {
     /// [`Solution::overload`].
     ///
     /// # Errors
-    /// If the figure has joints that are not hinges or slides.
+    /// As [`WalkProblem::solve`].
     pub fn predict(
         &self,
         human: &Human,
@@ -48,7 +49,7 @@ impl WalkProblem {
         costs: &EffortCosts,
         conditions: &WalkConditions,
         unknowns: &[f64],
-    ) -> Result<Prediction, CurvedJointError> {
+    ) -> Result<Prediction, OptimalWalkError> {
         let stages = longer(&NEAR_STAGES);
         let [(near, first), later @ ..] = PEOPLE;
         let mut unknowns = unknowns.to_vec();

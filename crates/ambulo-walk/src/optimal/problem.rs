@@ -14,6 +14,7 @@ use super::instant::{Evaluator, Instant};
 use super::layout::{Layout, Span, Weights};
 use super::normal::{InstantSums, IntervalRows, NormalEquations, empty_matrix};
 use super::objective::{Quantity, Row, Term};
+use super::observer::Observer;
 use crate::contact::HuntCrossley;
 use crate::dynamics::CurvedJointError;
 use crate::model::anthropometry::ContactSphere;
@@ -45,6 +46,8 @@ pub struct Problem {
     pub length_m: f64,
     /// The objective.
     pub terms: Vec<Term>,
+    /// Follows the steps of the solver and may stop them.
+    pub observer: Observer,
 }
 
 /// Properties of the problem that change from stage to stage of the solution.

@@ -5,6 +5,7 @@
 //! rates. As in [`super::solve`], an augmented Lagrangian contains the forces at the root. Its slack stays large,
 //! because with a small one the cost is a narrow curved valley.
 
+use super::error::OptimalWalkError;
 use super::normal::{NormalEquations, empty_matrix};
 use super::problem::{Problem, Stage, Transcription};
 use super::solution::{Progress, Solution};
@@ -33,13 +34,14 @@ impl Problem {
     /// times their multipliers. Check [`Solution::progress`].
     ///
     /// # Errors
-    /// If the model has joints that are not hinges or slides.
-    pub fn refine(&self, unknowns: &[f64], accuracy: f64, steps: usize) -> Result<Solution, CurvedJointError> {
+    /// As [`Problem::solve`].
+    pub fn refine(&self, unknowns: &[f64], accuracy: f64, steps: usize) -> Result<Solution, OptimalWalkError> {
         let mut method = Newton::new(self)?;
         let mut unknowns = unknowns.to_vec();
         let from = method.cost(&unknowns);
         let (mut cost, mut done, mut allowed) = (from, 0, accuracy.max(FIRST_GRADIENT));
         for _ in 0..steps {
+            self.observer.step().map_err(|steps| OptimalWalkError::Stopped { steps })?;
             let right = method.half_gradient();
             let gradient = 2.0 * right.iter().fold(0.0_f64, |largest, g| largest.max(g.abs()));
             if gradient <= allowed {

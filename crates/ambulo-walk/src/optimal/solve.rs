@@ -7,7 +7,9 @@
 //! A multiplier m stands for the force m / s² of its constraint, where s is the slack. This force is kept from stage to
 //! stage, so m changes with s².
 
+use super::error::OptimalWalkError;
 use super::normal::{NormalEquations, empty_matrix};
+use super::observer::Observer;
 use super::problem::{Problem, Stage, Transcription};
 use super::solution::{Progress, Solution};
 use crate::contact::HuntCrossley;
@@ -61,8 +63,8 @@ impl Problem {
     /// Solves the problem from a first guess, stage by stage.
     ///
     /// # Errors
-    /// If the model has joints that are not hinges or slides.
-    pub fn solve(&self, guess: &[f64], stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+    /// If the model has joints that are not hinges or slides, or the observer stops the solver.
+    pub fn solve(&self, guess: &[f64], stages: &[Continuation]) -> Result<Solution, OptimalWalkError> {
         self.solve_keeping(guess, stages, &[])
     }
 
@@ -75,7 +77,7 @@ impl Problem {
         guess: &[f64],
         stages: &[Continuation],
         kept: &[usize],
-    ) -> Result<Solution, CurvedJointError> {
+    ) -> Result<Solution, OptimalWalkError> {
         let mut method = Method::new(self, kept)?;
         let mut unknowns = guess.to_vec();
         let (mut progress, mut slack) = (Vec::new(), 1.0);
@@ -100,7 +102,7 @@ impl Problem {
                     }
                     method.transcription.update_multipliers();
                 }
-                steps += method.minimise(&mut unknowns, stage);
+                steps += method.minimise(&mut unknowns, stage)?;
             }
             let (cost, root) = (method.transcription.cost(), method.transcription.root_forces());
             progress.push(Progress { steps, from, cost, root });
@@ -118,7 +120,7 @@ impl Problem {
         mut solution: Solution,
         attempts: &[&[Continuation]],
         kept: &[usize],
-    ) -> Result<Solution, CurvedJointError> {
+    ) -> Result<Solution, OptimalWalkError> {
         for stages in attempts {
             if solution.unbalanced(NO_ROOT_FORCE).is_none() {
                 break;
@@ -174,6 +176,7 @@ impl Problem {
 struct Method<'a> {
     /// Numbers of the unknowns that keep their value.
     kept: &'a [usize],
+    observer: &'a Observer,
     transcription: Transcription<'a>,
     normal: NormalEquations,
     damping: f64,
@@ -183,7 +186,7 @@ impl<'a> Method<'a> {
     fn new(problem: &'a Problem, kept: &'a [usize]) -> Result<Method<'a>, CurvedJointError> {
         let transcription = Transcription::new(problem)?;
         let normal = NormalEquations::new(&transcription.layout);
-        Ok(Method { kept, transcription, normal, damping: FIRST_DAMPING })
+        Ok(Method { kept, observer: &problem.observer, transcription, normal, damping: FIRST_DAMPING })
     }
 
     fn cost(&mut self, unknowns: &[f64]) -> f64 {
@@ -192,18 +195,19 @@ impl<'a> Method<'a> {
     }
 
     /// Improves the unknowns; returns the number of steps taken. Before and after, the instants belong to the unknowns.
-    fn minimise(&mut self, unknowns: &mut [f64], stage: &Continuation) -> usize {
+    fn minimise(&mut self, unknowns: &mut [f64], stage: &Continuation) -> Result<usize, OptimalWalkError> {
         self.damping = self.damping.min(FIRST_DAMPING);
         let mut cost = self.transcription.cost();
         for step in 0..stage.steps {
-            let Some(after) = self.step(unknowns, cost) else { return step };
+            self.observer.step().map_err(|steps| OptimalWalkError::Stopped { steps })?;
+            let Some(after) = self.step(unknowns, cost) else { return Ok(step) };
             let gain = cost - after;
             cost = after;
             if gain < stage.gain * cost {
-                return step + 1;
+                return Ok(step + 1);
             }
         }
-        stage.steps
+        Ok(stage.steps)
     }
 
     /// A step that lowers the cost, and the lower cost.

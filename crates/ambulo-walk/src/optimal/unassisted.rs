@@ -3,6 +3,7 @@
 use super::conditions::{Device, WalkConditions};
 use super::error::OptimalWalkError;
 use super::find::OptimalWalk;
+use super::observer::Observer;
 use super::predict::{DeviceEffort, metabolic_power};
 use crate::gait::Walk;
 use crate::model::anthropometry::Build;
@@ -23,11 +24,16 @@ impl Unassisted {
     /// percent more or less than one that is solved over half a cycle, and that is not the devices' doing.
     ///
     /// # Errors
-    /// As [`OptimalWalk::predict`]: it may be that the muscles alone cannot do it.
-    pub fn predict(build: &Build, walk: &Walk, conditions: &WalkConditions) -> Result<Unassisted, OptimalWalkError> {
+    /// As [`OptimalWalk::predict`]: it may be that the muscles alone cannot do it. An observer that stops the solver.
+    pub fn predict(
+        build: &Build,
+        walk: &Walk,
+        conditions: &WalkConditions,
+        observer: &Observer,
+    ) -> Result<Unassisted, OptimalWalkError> {
         let asymmetric = conditions.asymmetric || !conditions.is_symmetric();
         let without = WalkConditions { devices: Vec::new(), free_cadence: false, asymmetric, ..conditions.clone() };
-        let found = OptimalWalk::predict(build, walk, &without)?;
+        let found = OptimalWalk::predict_observed(build, walk, &without, observer)?;
         let idle = |device: &Device| Device { stiffness: 0.0, damping: 0.0, moments: Vec::new(), ..device.clone() };
         let idle: Vec<Device> = conditions.devices.iter().map(idle).collect();
         let efforts = DeviceEffort::of(&found.solution, walk, build.mass, &idle)?;

@@ -5,13 +5,14 @@ mod targets;
 
 pub(crate) use passage::{Passage, PassageEnd};
 
+use super::error::OptimalWalkError;
 use super::layout::Span;
 use super::objective::{Bound, Quantity, Term};
+use super::observer::Observer;
 use super::problem::Problem;
 use super::solution::Solution;
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
-use crate::dynamics::CurvedJointError;
 use crate::gait::{FREE_SPEED, JointMoments, Walk};
 use crate::model::anthropometry::{ContactSphere, Human, SpherePart};
 use crate::model::{CoordinateId, CoordinateKind, Model, Movement, Side};
@@ -295,6 +296,12 @@ impl WalkProblem {
         WalkProblem { problem, guess, kept: Vec::new() }
     }
 
+    /// The same problem, whose solver is followed by an observer.
+    pub(crate) fn observed_by(mut self, observer: &Observer) -> WalkProblem {
+        self.problem.observer = observer.clone();
+        self
+    }
+
     /// The stages in which a walk from a first guess is solved: [`SPATIAL_STAGES`] for a figure that can move sideways,
     /// [`STAGES`] for one in the sagittal plane.
     #[must_use]
@@ -306,8 +313,8 @@ impl WalkProblem {
     /// the middle stage on, and then with the last one again.
     ///
     /// # Errors
-    /// If the figure has joints that are not hinges or slides.
-    pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+    /// If the figure has joints that are not hinges or slides, or the observer stops the solver.
+    pub fn solve(&self, stages: &[Continuation]) -> Result<Solution, OptimalWalkError> {
         let (longer, softer) = (Continuation::on(stages), &stages[stages.len() / 2..]);
         let found = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
         self.problem.balanced(found, &[&longer, softer, &longer], &self.kept)
@@ -319,7 +326,7 @@ impl WalkProblem {
     ///
     /// # Errors
     /// As [`WalkProblem::solve`].
-    pub(crate) fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, CurvedJointError> {
+    pub(crate) fn solve_coarse_first(&self, stages: &[Continuation]) -> Result<Solution, OptimalWalkError> {
         let exact = stages.iter().position(|stage| stage.updates > 0).unwrap_or_default();
         let (coarse, fine) = stages.split_at(exact.saturating_sub(1));
         if coarse.is_empty() || !self.problem.instants_per_knot.is_multiple_of(2) {
@@ -356,6 +363,7 @@ fn empty(human: &Human, soles: &[ContactSphere], shoes: HuntCrossley, costs: &Wa
         instants_per_knot: costs.per_knot,
         length_m: human.dimensions.leg_length,
         terms: Vec::new(),
+        observer: Observer::default(),
     }
 }
 

@@ -26,6 +26,7 @@ use crate::engine::world::{
     Closure, ContactLaw, JointCoordinate, Obstacle, ObstaclePath, Owner, RigidBody, Surface, TreeJoint, World,
 };
 use crate::findings::{Code, Findings};
+use crate::optimal::Observer;
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 use crate::walking::half_a_step_earlier;
 
@@ -68,13 +69,15 @@ pub struct Scene {
     pub(super) probe: StepWorkspace,
 }
 
-/// Settings that replace settings of the file.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Settings that replace settings of the file, and an observer.
+#[derive(Debug, Clone, Default)]
 pub struct SceneSettings {
     /// Time step [s].
     pub step_s: Option<f64>,
     /// Duration [s].
     pub duration_s: Option<f64>,
+    /// Follows the steps of the solver that plans the walks of figures, and may stop them.
+    pub observer: Observer,
 }
 
 impl Scene {
@@ -108,7 +111,8 @@ impl Scene {
         findings: &mut Findings,
     ) -> Result<Scene, SceneError> {
         let duration_s = changes.duration_s.unwrap_or(file.duration_s);
-        let mut sources = InputFiles::new(load, findings, duration_s, settings(file, changes));
+        let mut sources = InputFiles::new(load, findings, duration_s, settings(file, &changes));
+        sources.observer = changes.observer.clone();
         sources.signals = file.joints.iter().map(|joint| joint.name.clone()).collect();
         let mut world = World { gravity: file.gravity, impact: file.impact, ..World::default() };
         world.materials = file.materials.iter().map(material).collect();
@@ -129,7 +133,7 @@ impl Scene {
             state.coordinates[number].copy_from_slice(start);
             state.measure(&world, number);
         }
-        let settings = settings(file, changes);
+        let settings = settings(file, &changes);
         let trees = |error: crate::dynamics::LinkError| Place { line: 1, key: "joint".into() }.error(error.to_string());
         start(&world, &mut state, &settings.solver, findings).map_err(trees)?;
         let starts_early = start_half_a_step_earlier(&mut state, &walkers, &settings);
@@ -161,7 +165,7 @@ impl Scene {
     }
 }
 
-pub(super) fn settings(file: &SceneFile, changes: SceneSettings) -> StepSettings {
+pub(super) fn settings(file: &SceneFile, changes: &SceneSettings) -> StepSettings {
     StepSettings {
         step_s: changes.step_s.unwrap_or(file.step_s),
         integrator: file.integrator,

@@ -213,7 +213,9 @@ fn changing(
             (gait_signals(&walk, model, start_s, duration_s).map_err(|e| wrong(&e))?, None)
         }
         FigureWalkMode::Corrected | FigureWalkMode::Optimal => {
-            let walk = make_changing_walk(human, &walk, &ConsistentWalkSettings::default()).map_err(|e| wrong(&e))?;
+            let observer = sources.observer.clone();
+            let settings = ConsistentWalkSettings { observer, ..ConsistentWalkSettings::default() };
+            let walk = make_changing_walk(human, &walk, &settings).map_err(|e| wrong(&e))?;
             (walk.signals(human, start_s, duration_s), Some(walk.posture(model, start_s)))
         }
     };

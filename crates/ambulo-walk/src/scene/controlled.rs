@@ -11,7 +11,7 @@ use crate::control::ControlSettings;
 use crate::engine::workspace::StepSettings;
 use crate::findings::Findings;
 use crate::model::anthropometry::Human;
-use crate::optimal::Solution;
+use crate::optimal::{Observer, Solution};
 
 /// A figure with a controller, its plan and its settings, without the rest of its scene.
 #[derive(Debug, Clone)]
@@ -34,7 +34,8 @@ pub struct ControlledFigure {
 
 impl ControlledFigure {
     /// The figure of a scene with this name; without one, the first figure that has a controller. `load` reads the
-    /// files that the walk names, as in [`Scene::build`](super::Scene::build).
+    /// files that the walk names, as in [`Scene::build`](super::Scene::build). `observer` follows the steps of the
+    /// solver that plans the walk, and may stop them.
     ///
     /// # Errors
     /// No such figure, one without a controller, a walk that is not found.
@@ -42,11 +43,13 @@ impl ControlledFigure {
         file: &SceneFile,
         name: Option<&str>,
         load: &mut ReadFile<'_>,
+        observer: &Observer,
         findings: &mut Findings,
     ) -> Result<ControlledFigure, SceneError> {
         let (name, built, walk, control) = controlled(file, name)?;
-        let step = settings(file, SceneSettings::default());
+        let step = settings(file, &SceneSettings::default());
         let mut sources = InputFiles::new(load, findings, file.duration_s, step);
+        sources.observer = observer.clone();
         let gait = gait_of(walk, &mut sources)?;
         let planner = Planner { entry: walk, build: &built.build, gait: &gait };
         let settings = planner.settings(control, &mut sources)?;

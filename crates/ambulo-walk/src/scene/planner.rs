@@ -58,11 +58,13 @@ impl Planner<'_> {
                     found + "; expected normative curves, the same on both sides, and a figure with toe joints",
                 ));
             }
-            let found = OptimalWalk::find_lifted(self.build, &walk, entry.lift).map_err(|e| wrong(&e))?;
+            let found =
+                OptimalWalk::find_lifted(self.build, &walk, entry.lift, &sources.observer).map_err(|e| wrong(&e))?;
             let human = found.figure();
             return Ok(PlannedWalk { build: *self.build, entry, human, solution: found.solution, controller: None });
         }
-        let mut settings = ConsistentWalkSettings::default();
+        let observer = sources.observer.clone();
+        let mut settings = ConsistentWalkSettings { observer, ..ConsistentWalkSettings::default() };
         settings.costs.lift = entry.lift;
         let walk = make_consistent_walk(&human, &walk, &settings).map_err(|e| wrong(&e))?;
         Ok(PlannedWalk { build: *self.build, entry, human, solution: walk.solution().clone(), controller: None })

@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::model::anthropometry::{Build, Human};
 use crate::motion::RecordedTable;
 use crate::numerics::{Smoothing, SplineDegree, SplineFitter};
-use crate::optimal::Solution;
+use crate::optimal::{Observer, Solution};
 use std::collections::BTreeMap;
 
 /// Reads a file: takes its path as written in the scene, returns its bytes or an error message.
@@ -52,6 +52,8 @@ pub(super) struct InputFiles<'a, 'f> {
     pub(super) steps: StepSettings,
     /// Names of the joints of the scene, which machines of gaits read.
     pub(super) signals: Vec<String>,
+    /// Follows the solver that plans walks.
+    pub(super) observer: Observer,
 }
 
 impl<'a, 'f> InputFiles<'a, 'f> {
@@ -62,7 +64,7 @@ impl<'a, 'f> InputFiles<'a, 'f> {
         steps: StepSettings,
     ) -> InputFiles<'a, 'f> {
         let (tables, planned, signals) = (BTreeMap::new(), Vec::new(), Vec::new());
-        InputFiles { load, tables, planned, findings, duration_s, steps, signals }
+        InputFiles { load, tables, planned, findings, duration_s, steps, signals, observer: Observer::default() }
     }
 
     pub(super) fn model(&mut self, place: &Place, path: &str) -> Result<Model, SceneError> {

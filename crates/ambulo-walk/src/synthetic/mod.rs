@@ -18,6 +18,6 @@ mod walk;
 
 pub use crate::consistent_walk::CorrectionReport;
 pub use crate::numerics::Progress;
-pub use modes::{predict, replay, run_of_states, synthesise};
+pub use modes::{predict, predict_observed, replay, run_of_states, synthesise, synthesise_observed};
 pub use settings::{MOST_CYCLES, RATES_HZ, SyntheticError, SyntheticMode, SyntheticWalkSettings};
 pub use walk::{PaceReached, PredictionReport, SyntheticWalk, WalkReport};

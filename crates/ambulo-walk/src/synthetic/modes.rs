@@ -10,7 +10,7 @@ use crate::findings::{Code, Findings};
 use crate::gait::machine::StateChange;
 use crate::gait::{Gait, Pelvis, Walk};
 use crate::model::anthropometry::Human;
-use crate::optimal::{LARGEST_BETWEEN, OptimalWalkError, Solution, WalkConditions};
+use crate::optimal::{LARGEST_BETWEEN, Observer, OptimalWalkError, Solution, WalkConditions};
 use crate::walking::{
     GaitTargets, GroundContact, Release, Shoes, TorqueSeries, WalkRecording, Walker, WatchedTargets, gait_signals,
 };
@@ -46,13 +46,25 @@ pub fn synthesise(
     settings: &SyntheticWalkSettings<'_>,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    synthesise_observed(settings, &Observer::default(), findings)
+}
+
+/// As [`synthesise`]; `observer` follows the steps of the solver that finds the walk, and may stop them.
+///
+/// # Errors
+/// As [`synthesise`], and [`OptimalWalkError::Stopped`] if the observer stops the solver.
+pub fn synthesise_observed(
+    settings: &SyntheticWalkSettings<'_>,
+    observer: &Observer,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
     settings.check()?;
     match settings.mode {
-        SyntheticMode::Optimal => optimal(settings, findings),
-        SyntheticMode::Predicted => predicted(settings, &WalkConditions::default(), findings),
-        SyntheticMode::Corrected => corrected(settings, settings.build.human()?, findings),
+        SyntheticMode::Optimal => optimal(settings, observer, findings),
+        SyntheticMode::Predicted => predicted(settings, &WalkConditions::default(), observer, findings),
+        SyntheticMode::Corrected => corrected(settings, observer, findings),
         SyntheticMode::Paper => paper(settings, settings.build.human()?, findings),
-        SyntheticMode::Physical => physical(settings, findings),
+        SyntheticMode::Physical => physical(settings, observer, findings),
     }
 }
 
@@ -65,20 +77,34 @@ pub fn predict(
     conditions: &WalkConditions,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    predict_observed(settings, conditions, &Observer::default(), findings)
+}
+
+/// As [`predict`]; `observer` follows the steps of the solver that finds the walk, and may stop them.
+///
+/// # Errors
+/// As [`predict`], and [`OptimalWalkError::Stopped`] if the observer stops the solver.
+pub fn predict_observed(
+    settings: &SyntheticWalkSettings<'_>,
+    conditions: &WalkConditions,
+    observer: &Observer,
+    findings: &mut Findings,
+) -> Result<SyntheticWalk, SyntheticError> {
     settings.check()?;
     let settings = SyntheticWalkSettings { mode: SyntheticMode::Predicted, ..*settings };
-    predicted(&settings, conditions, findings)
+    predicted(&settings, conditions, observer, findings)
 }
 
 /// The corrected mode: the gait is made dynamically consistent, then simulated on soft shoes.
 fn corrected(
     settings: &SyntheticWalkSettings<'_>,
-    human: Human,
+    observer: &Observer,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
+    let human = settings.build.human()?;
     let (walk, kept) = timed(settings, settings.gait, &human, CORRECTED_SKIPPED, findings)?;
     refuse_unknown_coordinates(&walk, &human)?;
-    let own = ConsistentWalkSettings::default();
+    let own = ConsistentWalkSettings { observer: observer.clone(), ..ConsistentWalkSettings::default() };
     let changing = make_changing_walk(&human, &walk, &own)?;
     let mut corrections = Vec::new();
     for pace in changing.paces() {

@@ -12,18 +12,19 @@ use crate::model::anthropometry::{ContactSphere, Human};
 use crate::model::{BodyId, CoordinateId, CoordinateKind, Model, Side};
 use crate::motion::TimeGrid;
 use crate::optimal::{
-    Device, DeviceEffort, OptimalWalk, OptimalWalkError, Sample, Solution, Unassisted, WalkConditions, metabolic_power,
-    moment_at,
+    Device, DeviceEffort, Observer, OptimalWalk, OptimalWalkError, Sample, Solution, Unassisted, WalkConditions,
+    metabolic_power, moment_at,
 };
 use crate::spatial::Vec3;
 use crate::walking::{FootRecord, loads, worst_slip};
 
 pub(super) fn optimal(
     settings: &SyntheticWalkSettings<'_>,
+    observer: &Observer,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let (walk, kept) = planned(settings, findings)?;
-    let found = OptimalWalk::find(&settings.build, &walk)?;
+    let found = OptimalWalk::find_observed(&settings.build, &walk, observer)?;
     made(settings, walk, &kept, found)
 }
 
@@ -31,6 +32,7 @@ pub(super) fn optimal(
 pub(super) fn predicted(
     settings: &SyntheticWalkSettings<'_>,
     conditions: &WalkConditions,
+    observer: &Observer,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let no_curves = |gait| SyntheticError::Predicted { gait };
@@ -39,14 +41,14 @@ pub(super) fn predicted(
         other => other,
     })?;
     if !conditions.free_cadence {
-        let found = OptimalWalk::predict(&settings.build, &walk, conditions)?;
+        let found = OptimalWalk::predict_observed(&settings.build, &walk, conditions, observer)?;
         return reported(settings, (walk, kept), found, None);
     }
     let pace = settings.gait.pace;
     if pace.step_length.is_some() || pace.step_frequency.is_some() {
         return Err(SyntheticError::GivenSteps { gait: settings.gait.name.clone() });
     }
-    let (found, own) = OptimalWalk::predict_freely(&settings.build, &walk, conditions)?;
+    let (found, own) = OptimalWalk::predict_freely(&settings.build, &walk, conditions, observer)?;
     let settings = &SyntheticWalkSettings { gait: own.gait(), ..*settings };
     // The usual cadence has had its findings.
     let planned = planned(settings, &mut Findings::default())?;
@@ -81,9 +83,10 @@ fn reported(
 
 impl SyntheticWalk {
     /// Predicts a walk with devices once more without them, and adds that to the report. Other walks stay as they are.
-    pub fn compare_without_devices(&mut self) {
+    /// An observer follows the steps of the solver and may stop them.
+    pub fn compare_without_devices(&mut self, observer: &Observer) {
         let Some(report) = self.report.prediction.as_mut().filter(|report| !report.devices.is_empty()) else { return };
-        report.unassisted = Some(Unassisted::predict(&self.human.build, &self.walk, &report.conditions));
+        report.unassisted = Some(Unassisted::predict(&self.human.build, &self.walk, &report.conditions, observer));
     }
 }
 

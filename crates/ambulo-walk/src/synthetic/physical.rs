@@ -9,7 +9,7 @@ use crate::findings::{Code, Findings};
 use crate::gait::{Gait, Speed, Walk};
 use crate::model::anthropometry::Human;
 use crate::numerics::counted;
-use crate::optimal::{OptimalWalk, StandingMovements};
+use crate::optimal::{Observer, OptimalWalk, StandingMovements};
 use crate::walking::WalkRecording;
 
 /// Duration of the recording after a fall [s].
@@ -17,12 +17,13 @@ const AFTER_FALL_S: f64 = 1.0;
 
 pub(super) fn physical(
     settings: &SyntheticWalkSettings<'_>,
+    observer: &Observer,
     findings: &mut Findings,
 ) -> Result<SyntheticWalk, SyntheticError> {
     let planar = settings.build.human()?;
     let (walk, mut kept) = timed(settings, settings.gait, &planar, CORRECTED_SKIPPED, findings)?;
     let schedule = schedule(settings, &planar, &walk)?;
-    let plans = plans(settings, &walk, &schedule)?;
+    let plans = plans(settings, &walk, &schedule, observer)?;
     let step = StepSettings { step_s: settings.step_s(), ..StepSettings::default() };
     let control = ControlSettings::default();
     let controllers = plans.iter().map(|plan| WalkController::new(&plan.figure(), &plan.solution, step, &control));
@@ -84,16 +85,17 @@ fn plans(
     settings: &SyntheticWalkSettings<'_>,
     walk: &Walk,
     schedule: &SpeedSchedule,
+    observer: &Observer,
 ) -> Result<Vec<OptimalWalk>, SyntheticError> {
     if schedule.is_empty() {
-        return Ok(vec![OptimalWalk::find(&settings.build, walk)?]);
+        return Ok(vec![OptimalWalk::find_observed(&settings.build, walk, observer)?]);
     }
     let leg_length = walk.leg_length();
     let at = |speed: f64| {
         let mut gait = Gait { pace_changes: Vec::new(), ..settings.gait.clone() };
         gait.pace.speed = Some(Speed::MetersPerSecond(speed));
         let walk = Walk::new(&gait, leg_length, &mut Findings::default())?;
-        Ok(OptimalWalk::find(&settings.build, &walk)?)
+        Ok(OptimalWalk::find_observed(&settings.build, &walk, observer)?)
     };
     schedule.plans().into_iter().map(at).collect()
 }

@@ -9,7 +9,7 @@ use ambulo::model::anthropometry::Human;
 use ambulo::model::full_body::full_body;
 use ambulo::model::{Movement, Side};
 use ambulo::numerics::correlation;
-use ambulo::optimal::{Device, Load, LoadPlace, OptimalWalk, WalkConditions, metabolic_power};
+use ambulo::optimal::{Device, Load, LoadPlace, Observer, OptimalWalk, WalkConditions, metabolic_power};
 use ambulo::study::validation::TextTable as Table;
 use cpu_time::ThreadTime;
 
@@ -67,7 +67,7 @@ fn predict(
     .map_err(|e| e.to_string())?;
     let clock = ThreadTime::now();
     let (found, walk) = if conditions.free_cadence {
-        OptimalWalk::predict_freely(&MAN, &walk, conditions)
+        OptimalWalk::predict_freely(&MAN, &walk, conditions, &Observer::default())
     } else {
         OptimalWalk::predict(&MAN, &walk, conditions).map(|found| (found, walk))
     }

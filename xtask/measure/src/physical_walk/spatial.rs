@@ -8,7 +8,7 @@ use ambulo::findings::Findings;
 use ambulo::gait::{Gait, Speed, Walk};
 use ambulo::model::anthropometry::{Build, Human};
 use ambulo::model::full_body::full_body;
-use ambulo::optimal::{OptimalWalk, soles_with_width};
+use ambulo::optimal::{Observer, OptimalWalk, soles_with_width};
 use ambulo::simulation::control::tuning::{Push, PushSettings, PushUse};
 use ambulo::simulation::control::{ControlSettings, WalkController};
 use ambulo::spatial::{Vec3, Wrench};
@@ -171,7 +171,7 @@ pub(super) fn figure_of(build: &Build, speed: f64, lift_m: f64) -> Result<Figure
     gait.pace.speed = Some(Speed::MetersPerSecond(speed));
     let planar = build.human().map_err(|e| e.to_string())?;
     let walk = Walk::new(&gait, planar.dimensions.leg_length, &mut Findings::default()).map_err(|e| e.to_string())?;
-    let found = OptimalWalk::find_lifted(build, &walk, lift_m).map_err(|e| e.to_string())?;
+    let found = OptimalWalk::find_lifted(build, &walk, lift_m, &Observer::default()).map_err(|e| e.to_string())?;
     Ok(Figure { human: found.figure(), plan: found.solution })
 }
 

@@ -15,12 +15,13 @@ mod floor;
 mod soles;
 mod terms;
 
+use super::error::OptimalWalkError;
 use super::layout::Span;
+use super::observer::Observer;
 use super::problem::Problem;
 use super::solution::{Sample, Solution};
 use super::solve::Continuation;
 use crate::contact::HuntCrossley;
-use crate::dynamics::CurvedJointError;
 use crate::kinematics::{Trajectory, TrajectoryError};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, CoordinateId, CoordinateKind, Drive, Model, Side};
@@ -132,9 +133,9 @@ impl Default for TrackSettings {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackError {
-    /// A joint for which no derivatives are computed.
+    /// A joint for which no derivatives are computed, or an observer that stopped the solver.
     #[error(transparent)]
-    Joint(#[from] CurvedJointError),
+    Solver(#[from] OptimalWalkError),
     /// A solution with numbers that are not finite.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
@@ -298,6 +299,7 @@ impl<'a> TrackProblem<'a> {
             instants_per_knot: PER_KNOT,
             length_m: model.stature().leg_length_m,
             terms: Vec::new(),
+            observer: Observer::default(),
         };
         let guess = problem.fitted(&postures(recorded, &grid, &belt));
         let known = Recorded { model, trajectory: recorded, instants: &grid, belt: &belt, settings };
@@ -319,14 +321,14 @@ impl<'a> TrackProblem<'a> {
         let last = Continuation::on(stages);
         let solution = self.problem.solve_keeping(&self.guess, stages, &self.kept)?;
         let mut solution = self.problem.balanced(solution, &[&last], &self.kept)?;
-        let mut samples = solution.samples(&times)?;
+        let mut samples = solution.samples(&times).map_err(OptimalWalkError::from)?;
         for _ in 0..MORE_ATTEMPTS {
             let (left, _) = self.residual(&samples);
             if left.is_nan() || left <= SMALL_RESIDUAL {
                 break;
             }
             solution = self.problem.balanced(solution, &[&last], &self.kept)?;
-            samples = solution.samples(&times)?;
+            samples = solution.samples(&times).map_err(OptimalWalkError::from)?;
         }
         let trajectory = self.trajectory(&samples)?;
         let feet = [(Side::Right, 0), (Side::Left, PER_FOOT)].map(|(side, first)| self.foot(&samples, side, first));
