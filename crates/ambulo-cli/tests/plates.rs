@@ -312,6 +312,32 @@ fn a_load_far_from_both_feet_is_assigned_to_neither() {
 }
 
 #[test]
+fn a_load_that_pulls_its_foot_down_is_named_although_it_belongs_to_no_foot() {
+    let bench = Workbench::new("downward_load");
+    let down = "which was not used, down";
+    for (reversed, warned) in [(11..12, down), (10..13, down), (0..0, "no step in which it carries a foot")] {
+        bench.write("table.mot", bench.text("walk_grf.mot").replace("_r_", "_1_").replace("_l_", "_2_"));
+        bench.edit_rows("table.mot", |mut rows| {
+            for cells in &mut rows {
+                for cell in &mut cells[reversed.clone()] {
+                    *cell = format!("-{}", cell.trim()).replace("--", "");
+                }
+                if reversed.is_empty() {
+                    // The load lies in a column of another axis.
+                    (cells[10], cells[11]) = (cells[11].clone(), "0".to_owned());
+                }
+            }
+            rows
+        });
+        let run = bench.run(&ON_TABLE);
+        run.warned(&["ground_force_2_...`", warned]);
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        assert_ne!(summary["quality"]["state"], "good", "{}", summary["quality"]);
+        assert!(summary["quality"]["reasons"].to_string().contains("unassigned_forces"), "{}", summary["quality"]);
+    }
+}
+
+#[test]
 fn external_loads_on_the_wrong_foot_are_recognised() {
     let bench = Workbench::new("wrong_foot");
     assert!(!bench.forces(&RAW).done().stderr.contains("lies under"));

@@ -6,6 +6,7 @@
 //! | a spike along each axis is bridged | 2 N |
 //! | an excursion of 50 ms is bridged, one of 51 ms is reported as a lost signal | exact |
 //! | missing rows are reported; points of light loads are held near the foot | 0.3 m |
+//! | rows without a force are no load in a table that leaves out all light loads, and a gap in others | exact |
 //! | clean tables, and those of a plane, are silent | exact |
 
 use ambulo::findings::{Code, Findings};
@@ -13,6 +14,7 @@ use ambulo::formats::external_loads::{ExternalForce, ExternalLoads};
 use ambulo::formats::table::Table;
 use ambulo::model::anthropometry::{Build, SegmentTable};
 use ambulo::motion::{ForceRecording, force_recordings};
+use ambulo::spatial::Vec3;
 use std::ops::Range;
 
 const RATE_HZ: f64 = 1000.0;
@@ -79,7 +81,7 @@ fn a_spike_in_a_table_is_bridged_with_its_point_and_its_moment() {
     for i in 0..FRAMES {
         let inside = (200..203).contains(&i);
         let share = (i as f64 - 199.0) / 4.0;
-        let expected = |values: &dyn Fn(usize) -> ambulo::spatial::Vec3| match inside {
+        let expected = |values: &dyn Fn(usize) -> Vec3| match inside {
             true => values(199) + (values(203) - values(199)) * share,
             false => values(i),
         };
@@ -164,4 +166,32 @@ fn a_column_that_never_moves_is_named_unless_the_table_is_of_a_plane() {
         set(&mut idle, &format!("left_{name}"), 0..FRAMES, 0.0);
     }
     assert_eq!(still(idle), None, "a load that carries nothing is no broken one");
+}
+
+#[test]
+fn a_table_that_leaves_out_light_loads_has_no_load_there() {
+    let emptied = |below_n: f64, extra: Range<usize>| {
+        let mut columns = columns();
+        let load: Vec<f64> = columns.iter().find(|(name, _)| name == "right_vy").unwrap().1.clone();
+        for name in COLUMNS {
+            for row in (0..FRAMES).filter(|row| load[*row] < below_n || extra.contains(row)) {
+                set(&mut columns, &format!("right_{name}"), row..row + 1, f64::NAN);
+            }
+        }
+        read(columns)
+    };
+    let (whole, _) = read(columns());
+    let (recordings, findings) = emptied(20.0, 0..0);
+    let said = message(&findings, Code::LoadsPointUndefined).unwrap();
+    assert!(said.contains("`right`") && said.contains("no load"), "{said}");
+    for (force, known) in recordings[0].force.iter().zip(&whole[0].force) {
+        assert_eq!(*force, if known.y < 20.0 { Vec3::zeros() } else { *known });
+    }
+    assert_eq!(findings.as_slice().len(), 1, "{findings:?}");
+    // Rows that are missing under a load are a gap, and so are those of a table that writes its light loads.
+    for (below_n, extra) in [(20.0, 200..260), (-1.0, 500..520)] {
+        let (recordings, findings) = emptied(below_n, extra.clone());
+        assert!(recordings[0].force[extra.start].x.is_nan(), "{below_n}");
+        assert!(!findings.has(Code::LoadsPointUndefined), "{below_n}");
+    }
 }

@@ -605,7 +605,7 @@ codes! {
          load."
         "Filter forces and moments first, and compute points then; leave rows without a point empty.";
     LoadsPointUndefined "loads.point_undefined" Note
-        "A load has no point of application while it is unloaded; it was read as zero."
+        "A load has no point of application, or no force, while it is unloaded; it was read as zero."
         "Nothing to do.";
     LoadsShorterThanMotion "loads.shorter_than_motion" Note
         "Forces were recorded for a part of the motion only; the rest was left out."

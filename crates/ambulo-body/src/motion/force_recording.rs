@@ -96,6 +96,32 @@ impl ForceRecording {
         runs
     }
 
+    /// Reads rows without a force as unloaded if the table leaves out all light loads: no other row is unloaded, and
+    /// the loads beside those rows are light.
+    fn unload_empty_rows(&mut self, findings: &mut Findings) {
+        let norms: Vec<f64> = self.force.iter().map(|force| force.norm()).collect();
+        let light_n = EMPTY_SHARE * norms.iter().copied().filter(|n| n.is_finite()).fold(0.0, f64::max);
+        let known: Vec<usize> = (0..norms.len()).filter(|i| norms[*i].is_finite()).collect();
+        let empty: Vec<usize> = (0..norms.len()).filter(|i| !norms[*i].is_finite()).collect();
+        let (Some(&first), Some(&last)) = (known.first(), known.last()) else { return };
+        let is_light = |i: usize| norms[i] < light_n;
+        let between = known.windows(2).all(|pair| pair[0] + 1 == pair[1] || pair.iter().all(|i| is_light(*i)));
+        let ends = (first == 0 || is_light(first)) && (last + 1 == norms.len() || is_light(last));
+        let unloaded = norms.iter().filter(|norm| **norm < UNLOADED_N).count();
+        if empty.is_empty() || !between || !ends || UNLOADED_ROWS * unloaded > empty.len() {
+            return;
+        }
+        let message = format!(
+            "the load `{}` has no force in {}, beside loads of less than {light_n:.0} N; read as no load",
+            self.name,
+            counted(empty.len(), "row")
+        );
+        findings.report(Code::LoadsPointUndefined, message);
+        for i in empty {
+            (self.force[i], self.moment[i]) = (Vec3::zeros(), Vec3::zeros());
+        }
+    }
+
     /// Holds points of light loads at those of the nearest solid loads. A force that was filtered after its point was
     /// computed, or a number that stands for "no point", leaves them anywhere, where their moments are large.
     fn hold_light_points(&mut self, findings: &mut Findings) {
@@ -206,6 +232,11 @@ const FARTHEST_PLAUSIBLE_POINT_M: f64 = 60.0;
 const LOADED_N: f64 = 20.0;
 /// Shortest time without rows that is reported [s].
 const SHORTEST_HOLE_S: f64 = 0.05;
+/// Rows without a force are unloaded beside loads below this share of the largest one.
+const EMPTY_SHARE: f64 = 0.1;
+/// A force below this is no load [N]; a table with more than one such row in so many rows without a force writes it.
+const UNLOADED_N: f64 = 1.0;
+const UNLOADED_ROWS: usize = 10;
 /// A load is solid above this share of its largest value.
 const SOLID_SHARE: f64 = 0.2;
 /// A point of a light load lies at most this far beyond those of the solid loads of the same contact [m]: about the
@@ -245,8 +276,11 @@ pub fn force_recordings(
             point: triple(table, &kept, load, load.point_identifier.as_deref(), "the point")?,
             moment: triple(table, &kept, load, load.torque_identifier.as_deref(), "the torque")?,
         };
-        report_millimetres(&recording, findings);
         recordings.push(recording);
+    }
+    for recording in &mut recordings {
+        recording.unload_empty_rows(findings);
+        report_millimetres(recording, findings);
     }
     report_still(&recordings, findings);
     for recording in &mut recordings {

@@ -19,7 +19,7 @@ mod marker_trial;
 mod marker_use;
 pub(crate) mod motion_bandwidth;
 mod peaks;
-mod plausibility;
+pub(crate) mod plausibility;
 mod predicted;
 pub(crate) mod prediction_checks;
 pub(crate) mod progress;

@@ -37,16 +37,23 @@ pub(super) fn report_loads(model: &Model, trajectory: &Trajectory, ground: &Grou
 /// Reports forces that pull a foot down: forces on the plate instead of on the foot.
 fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mut Findings) {
     for body in ground.bodies.iter() {
-        let mean = body.force.iter().map(|f| f.dot(&up)).sum::<f64>() / body.force.len().max(1) as f64;
-        if mean < -CENTER_OF_PRESSURE_LOAD_N {
-            let name = &model.bodies()[body.body.index()].name;
-            let message = format!(
-                "the ground force pulls `{name}` down (mean vertical force {mean:.0} N); it is probably the force on \
-                 the plate. hint: reverse the sign of forces and torques"
-            );
+        let name = &model.bodies()[body.body.index()].name;
+        if let Some(message) = pulls_down(&format!("`{name}`"), &body.force, up) {
             findings.report(Code::LoadsDownward, message);
         }
     }
+}
+
+/// What to say about a force on something that it pulls down; `None` if it does not.
+pub(crate) fn pulls_down(what: &str, force: &[Vec3], up: Vec3) -> Option<String> {
+    let known = force.iter().map(|f| f.dot(&up)).filter(|vertical| vertical.is_finite());
+    let mean = known.sum::<f64>() / force.len().max(1) as f64;
+    (mean < -CENTER_OF_PRESSURE_LOAD_N).then(|| {
+        format!(
+            "the ground force pulls {what} down (mean vertical force {mean:.0} N); it is probably the force on the \
+             plate. hint: reverse the sign of forces and torques"
+        )
+    })
 }
 
 /// Reports centres of pressure that are nearer to the other foot: right and left exchanged.

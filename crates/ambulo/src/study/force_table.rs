@@ -4,7 +4,9 @@ use super::error::StudyError;
 use super::force_columns::{LoadColumns, load_columns, with_axis_last};
 use super::source::ForceTable;
 use super::table_axes;
+use crate::analysis::plausibility::pulls_down;
 use crate::findings::{Code, Findings, and_more_times};
+use crate::ground::phases::contacts_from_force;
 use crate::ground::{CENTER_OF_PRESSURE_LOAD_N, FootPaths, LoadedSpan};
 use crate::kinematics::Trajectory;
 use crate::model::anatomy::Sole;
@@ -111,6 +113,9 @@ impl Walker<'_> {
                 Some(side) => vec![(side, force)],
                 None if !is_shown => return None,
                 None => {
+                    let unused = self.without_step(load, &force, spans, findings);
+                    out.loaded_s += unused.iter().map(|[from, to]| to - from).sum::<f64>();
+                    out.unassigned.extend(unused);
                     out.loaded_s += spans.iter().map(|s| s.span[1] - s.span[0]).sum::<f64>();
                     out.unassigned.extend(spans.iter().filter(|s| s.side().is_none()).map(|s| s.span));
                     divided(&force, load, spans, findings)
@@ -124,6 +129,34 @@ impl Walker<'_> {
         }
         findings.report(Code::LoadsGuessed, format!("taken as ground forces: {}", taken.join(", ")));
         Some(out)
+    }
+
+    /// Reports a load that was not used because it carries no foot at any time. Returns its loaded times [s].
+    fn without_step(
+        &self,
+        load: &LoadColumns,
+        force: &ForceRecording,
+        spans: &[LoadedSpan],
+        findings: &mut Findings,
+    ) -> Vec<[f64; 2]> {
+        if !spans.is_empty() || !is_loaded(force) {
+            return Vec::new();
+        }
+        let foot = format!("the foot of `{}...`, which was not used,", load.prefix);
+        match pulls_down(&foot, &force.force, self.model.up()) {
+            Some(message) => findings.report(Code::LoadsDownward, message),
+            None => findings.report(
+                Code::LoadsUnassigned,
+                format!(
+                    "`{}...` has forces, but no step in which it carries a foot; it was not used. hint: check its \
+                     axes, its unit and its times",
+                    load.prefix
+                ),
+            ),
+        }
+        let (Some(&first), Some(&last)) = (force.times.first(), force.times.last()) else { return Vec::new() };
+        let size: Vec<f64> = force.force.iter().map(|force| force.norm()).collect();
+        contacts_from_force(&force.times, &size).iter().map(|contact| contact.span(first, last)).collect()
     }
 
     /// The feet over time; `None` if the motion cannot be used before it is smoothed.

@@ -60,7 +60,7 @@ fn turn_to_world(
     world_from_lab: Option<&Mat3>,
     findings: &mut Findings,
 ) -> Option<Vertical> {
-    let sum: Vec3 = forces.iter().flat_map(|p| &p.force).filter(|f| f.iter().all(|x| x.is_finite())).sum();
+    let sum = sum_of_loads(forces);
     let share = |sum: Vec3| sum / sum.norm();
     let is_upright = |sum: Vec3| share(sum).y > UPRIGHT;
     let of_markers = world_from_lab.map(|world_from_lab| world_from_lab * sum);
@@ -82,6 +82,14 @@ fn turn_to_world(
         forces.iter_mut().for_each(|force| force.rotate(world_from_lab));
     }
     None
+}
+
+/// The sum of all forces. A load against the largest one has the other sign: it is the force on a plate.
+fn sum_of_loads(forces: &[ForceRecording]) -> Vec3 {
+    let of = |load: &ForceRecording| -> Vec3 { load.force.iter().filter(|f| f.iter().all(|x| x.is_finite())).sum() };
+    let sums: Vec<Vec3> = forces.iter().map(of).collect();
+    let largest = sums.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_default();
+    sums.iter().map(|sum| if sum.dot(&largest) < 0.0 { -sum } else { *sum }).sum()
 }
 
 /// Converts forces that give no plausible body weight in newtons. Returns whether they were in body weights.
