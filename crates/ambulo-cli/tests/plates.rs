@@ -249,6 +249,33 @@ fn a_mirrored_force_of_a_table_is_named_and_bad() {
 }
 
 #[test]
+fn a_force_of_another_size_or_turned_by_some_degrees_is_named_and_doubtful() {
+    let bench = Workbench::new("misfit_table");
+    let turned = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        move |[x, y, z]: [f64; 3]| [x * cos + z * sin, y, z * cos - x * sin]
+    };
+    type Spoil = Box<dyn Fn([f64; 3]) -> [f64; 3]>;
+    let spoiled: [(Spoil, &[&str]); 4] = [
+        (Box::new(|[x, y, z]| [2.0 * x, y, 2.0 * z]), &["0.5 times the horizontal force", "calibration matrix"]),
+        (Box::new(|[x, y, z]| [0.5 * x, y, 0.5 * z]), &["2.1 times the horizontal force", "calibration matrix"]),
+        (Box::new(turned(20.0)), &["is turned to the left by", "axes of the table"]),
+        (Box::new(turned(-20.0)), &["is turned to the right by", "axes of the table"]),
+    ];
+    for (spoil, words) in spoiled {
+        edit_vectors(&bench, |kind, v| if kind == 0 { spoil(v) } else { v });
+        bench.run(&ON_TABLE).warned(words);
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        assert_eq!(summary["quality"]["state"], "doubtful", "{words:?}: {}", summary["quality"]);
+        assert!(summary["quality"]["reasons"].to_string().contains("lost_forces"), "{}", summary["quality"]);
+        assert_ne!(summary["verdict"]["state"], "infeasible", "{}", summary["verdict"]);
+    }
+    edit_vectors(&bench, |_, v| v);
+    let run = bench.run(&ON_TABLE).done();
+    assert!(!run.stderr.contains("horizontal force"), "{}", run.stderr);
+}
+
+#[test]
 fn one_force_may_serve_changing_feet() {
     let bench = Workbench::new("changing_feet");
     stated_moments(&bench);

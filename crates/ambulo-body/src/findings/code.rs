@@ -552,6 +552,14 @@ codes! {
         "A horizontal force of a plate or a force table points away from the mass centre where it must point towards \
          it: it is mirrored or turned."
         "State the correction of the plate, or correct the sign of the channel or column.";
+    PlatesShearGain "plates.shear_gain" Warning
+        "The fore-aft force of a plate or a force table is too large or too small, by its direction and by the \
+         acceleration of the mass centre."
+        "Check sensitivity and calibration matrix of the channels.";
+    PlatesSkewed "plates.skewed" Warning
+        "The horizontal force of a plate or a force table is turned by some degrees, by its direction and by the \
+         acceleration of the mass centre."
+        "Correct FORCE_PLATFORM:CORNERS in the file, or the axes of the force table.";
     PlatesMisplaced "plates.misplaced" Warning
         "The centres of pressure lie to one side of both feet, or not where the motion needs them along the foot: \
          plates or markers are not where the file states, or moments of a plate are wrong."

@@ -127,23 +127,48 @@ pub(super) fn scaled(trial: &mut Trial, factor: f64) -> Option<()> {
 /// A horizontal force of all plates with the wrong sign: along the walk, or across it.
 pub(super) fn mirrored_force(trial: &mut Trial, is_along: bool) -> Option<()> {
     let walks_along = walked_axis(&trial.moving)?;
-    let mut mirrored = 0;
-    for plate in trial.moving.platforms().ok()? {
+    multiplied(trial, -1.0, |plate| {
         let [a, b, ..] = plate.corners;
         let x_axis = usize::from((a[1] - b[1]).abs() > (a[0] - b[0]).abs());
-        let number = usize::from((x_axis == walks_along) != is_along);
-        // Type 3 has two channels for each horizontal force.
-        let channels = match plate.kind {
-            2 | 4 => number..number + 1,
-            3 => 2 * number..2 * number + 2,
-            _ => continue,
-        };
-        for index in plate.channels.get(channels)?.iter().copied().flatten() {
-            trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample = -*sample);
-            mirrored += 1;
+        vec![usize::from((x_axis == walks_along) != is_along)]
+    })
+}
+
+/// The horizontal forces of all plates times a factor.
+pub(super) fn shear_scaled(trial: &mut Trial, factor: f64) -> Option<()> {
+    multiplied(trial, factor, |_| vec![0, 1])
+}
+
+/// Horizontal forces times a factor, along the axes of each plate that `axes` names.
+fn multiplied(trial: &mut Trial, factor: f64, axes: impl Fn(&Platform) -> Vec<usize>) -> Option<()> {
+    let mut count = 0;
+    for plate in trial.moving.platforms().ok()? {
+        for axis in axes(&plate) {
+            // Type 3 has two channels for each horizontal force.
+            let channels = match plate.kind {
+                2 | 4 => axis..axis + 1,
+                3 => 2 * axis..2 * axis + 2,
+                _ => continue,
+            };
+            for index in plate.channels.get(channels)?.iter().copied().flatten() {
+                trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample *= factor);
+                count += 1;
+            }
         }
     }
-    (mirrored > 0).then_some(())
+    (count > 0).then_some(())
+}
+
+/// All plates turned about their middles [deg].
+pub(super) fn plates_turned(trial: &mut Trial, degrees: f64) -> Option<()> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    each_platform(&mut trial.moving, |plate| {
+        let middle = [0, 1].map(|axis| plate.corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0);
+        for corner in &mut plate.corners {
+            let [x, y] = [0, 1].map(|axis| corner[axis] - middle[axis]);
+            (corner[0], corner[1]) = (middle[0] + x * cos - y * sin, middle[1] + x * sin + y * cos);
+        }
+    })
 }
 
 /// The axis of the laboratory, 0 or 1, along which the markers travel most.

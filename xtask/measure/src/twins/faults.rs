@@ -2,7 +2,8 @@
 
 use super::changes::{
     Way, along_limb, clock, corners, corners_of_one, cross_talk, delayed, exchanged, frozen, held, left_handed,
-    mirrored_force, moved, other_stands, pair, plate_silent, plates_moved, scaled, two_people, without,
+    mirrored_force, moved, other_stands, pair, plate_silent, plates_moved, plates_turned, scaled, shear_scaled,
+    two_people, without,
 };
 use super::spoiled::Trial;
 
@@ -52,6 +53,10 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault { name: "forces with the other sign", codes: &["plates.force_on_plate"], spoil: |t| scaled(t, -1.0) },
     Fault { name: "lateral forces mirrored", codes: MIRRORED, spoil: |t| mirrored_force(t, false) },
     Fault { name: "fore-aft forces mirrored", codes: MIRRORED, spoil: |t| mirrored_force(t, true) },
+    Fault { name: "horizontal forces doubled", codes: SHEAR, spoil: |t| shear_scaled(t, 2.0) },
+    Fault { name: "horizontal forces halved", codes: SHEAR, spoil: |t| shear_scaled(t, 0.5) },
+    Fault { name: "plates turned by 20 deg", codes: SKEWED, spoil: |t| plates_turned(t, 20.0) },
+    Fault { name: "plates turned by -30 deg", codes: SKEWED, spoil: |t| plates_turned(t, -30.0) },
     Fault { name: "left and right exchanged", codes: SIDES, spoil: |t| exchanged(&mut t.moving) },
     Fault { name: "standing trial exchanged", codes: SIDES, spoil: |t| exchanged(t.standing.as_mut()?) },
     Fault {
@@ -109,6 +114,8 @@ const CLOCK: &[&str] = &["motion.clock"];
 const CORNERS: &[&str] = &["plates.corners_ordered", "plates.corners_unclear"];
 const UNIT: &[&str] = &["plates.unit_by_weight"];
 const MIRRORED: &[&str] = &["plates.mirrored"];
+const SHEAR: &[&str] = &["plates.shear_gain"];
+const SKEWED: &[&str] = &["plates.skewed"];
 const SIDES: &[&str] = &["markers.sides_exchanged"];
 const PAIR: &[&str] = &["markers.swap"];
 const MOVED: &[&str] = &["markers.moved"];

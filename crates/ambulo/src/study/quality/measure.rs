@@ -28,7 +28,7 @@ pub enum Measure {
     UnassignedForces,
     /// Share of the stances on force plates that show no load.
     SilentPlates,
-    /// Number of measured forces of which a part is missing.
+    /// Number of measured forces of which a part is missing or wrong.
     LostForces,
     /// Agreement of the horizontal forces with the direction from the centre of pressure to the mass centre.
     ForceDirections,
@@ -191,7 +191,7 @@ impl Measure {
             Measure::UnmeasuredLeg => "1 if a leg that stood on force plates was never measured, but the other leg was",
             Measure::UnassignedForces => "share of the loaded time in which a measured load lies under no foot",
             Measure::SilentPlates => "share of the stances on force plates that show no load",
-            Measure::LostForces => "number of measured forces that are missing in part, clipped or lost for a time",
+            Measure::LostForces => "number of measured forces that are lost in part or for a time, scaled or turned",
             Measure::ForceDirections => {
                 "correlation of a horizontal force with the direction from its centre of pressure to the mass centre"
             }
