@@ -276,6 +276,29 @@ fn a_force_of_another_size_or_turned_by_some_degrees_is_named_and_doubtful() {
 }
 
 #[test]
+fn a_load_that_is_stronger_than_the_other_for_the_same_need_is_named_and_doubtful() {
+    let bench = Workbench::new("unequal_table");
+    for (factor, is_named) in [(1.25, true), (0.8, true), (1.05, false)] {
+        edit_vectors(&bench, |_, v| v);
+        bench.edit_rows("table.mot", |mut rows| {
+            for cells in &mut rows {
+                // Force and moment of the second load.
+                for cell in [10, 11, 12, 16, 17, 18] {
+                    cells[cell] = (factor * cells[cell].trim().parse::<f64>().unwrap()).to_string();
+                }
+            }
+            rows
+        });
+        let run = bench.run(&ON_TABLE);
+        let stronger = if factor > 1.0 { "the load `ground_force_2_` measures" } else { "`ground_force_1_` measures" };
+        assert_eq!(run.stderr.contains(stronger), is_named, "{factor}: {}", run.stderr);
+        let summary: Value = serde_json::from_slice(&bench.read("out/summary.json")).unwrap();
+        let reasons = summary["quality"]["reasons"].to_string();
+        assert_eq!(reasons.contains("lost_forces"), is_named, "{factor}: {reasons}");
+    }
+}
+
+#[test]
 fn one_force_may_serve_changing_feet() {
     let bench = Workbench::new("changing_feet");
     stated_moments(&bench);

@@ -556,6 +556,9 @@ codes! {
         "The fore-aft force of a plate or a force table is too large or too small, by its direction and by the \
          acceleration of the mass centre."
         "Check sensitivity and calibration matrix of the channels.";
+    PlatesUnequal "plates.unequal" Warning
+        "Two plates measure different shares of the vertical force that the motion needs."
+        "Check the calibration of both with a known weight; look for a cane or a handrail.";
     PlatesSkewed "plates.skewed" Warning
         "The horizontal force of a plate or a force table is turned by some degrees, by its direction and by the \
          acceleration of the mass centre."

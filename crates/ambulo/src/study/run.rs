@@ -320,7 +320,7 @@ fn unmeasured(observed: &Observation, motion: &ObservedMotion, findings: &mut Fi
 
 /// Messages about measured forces of which a part is missing or wrong.
 fn lost_forces(findings: &Findings) -> Vec<String> {
-    let of_size = [Code::PlatesShearGain, Code::PlatesSkewed];
+    let of_size = [Code::PlatesShearGain, Code::PlatesSkewed, Code::PlatesUnequal];
     let of_lost = [&[Code::PlatesStillChannel, Code::PlatesClipped, Code::PlatesLost][..], &of_size].concat();
     let lost = findings.as_slice().iter().filter(|finding| of_lost.contains(&finding.code));
     lost.map(|finding| finding.message.clone()).collect()

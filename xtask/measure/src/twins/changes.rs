@@ -9,17 +9,22 @@ type Position = [f64; 3];
 
 /// The plate with the largest loads shows what it showed in the first sample.
 pub(super) fn plate_silent(trial: &mut Trial) -> Option<()> {
+    let plate = most_loaded(&trial.moving)?;
+    silence(&mut trial.moving, plate)
+}
+
+/// The plate with the largest loads.
+fn most_loaded(file: &C3d) -> Option<usize> {
     let spread = |samples: &[f64]| {
         samples.iter().copied().fold(f64::MIN, f64::max) - samples.iter().copied().fold(f64::MAX, f64::min)
     };
     let largest = |plate: &Platform| {
-        let channels = plate.channels.iter().flatten().filter_map(|index| trial.moving.channels.get(*index));
+        let channels = plate.channels.iter().flatten().filter_map(|index| file.channels.get(*index));
         channels.map(|channel| spread(&channel.samples)).fold(0.0, f64::max)
     };
-    let platforms = trial.moving.platforms().ok()?;
+    let platforms = file.platforms().ok()?;
     let loads = platforms.iter().map(largest).enumerate();
-    let (plate, _) = loads.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    silence(&mut trial.moving, plate)
+    loads.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(plate, _)| plate)
 }
 
 /// A plate shows what it showed in the first sample.
@@ -119,6 +124,15 @@ pub(super) fn scaled(trial: &mut Trial, factor: f64) -> Option<()> {
         return None;
     }
     for index in channels {
+        trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample *= factor);
+    }
+    Some(())
+}
+
+/// All channels of the plate with the largest loads times a factor.
+pub(super) fn one_scaled(trial: &mut Trial, factor: f64) -> Option<()> {
+    let platforms = trial.moving.platforms().ok().filter(|platforms| platforms.len() > 1)?;
+    for index in platforms[most_loaded(&trial.moving)?].channels.iter().copied().flatten() {
         trial.moving.channels.get_mut(index)?.samples.iter_mut().for_each(|sample| *sample *= factor);
     }
     Some(())

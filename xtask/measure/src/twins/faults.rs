@@ -2,8 +2,8 @@
 
 use super::changes::{
     Way, along_limb, clock, corners, corners_of_one, cross_talk, delayed, exchanged, frozen, held, left_handed,
-    mirrored_force, moved, other_stands, pair, plate_silent, plates_moved, plates_turned, scaled, shear_scaled,
-    two_people, without,
+    mirrored_force, moved, one_scaled, other_stands, pair, plate_silent, plates_moved, plates_turned, scaled,
+    shear_scaled, two_people, without,
 };
 use super::spoiled::Trial;
 
@@ -55,6 +55,8 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault { name: "fore-aft forces mirrored", codes: MIRRORED, spoil: |t| mirrored_force(t, true) },
     Fault { name: "horizontal forces doubled", codes: SHEAR, spoil: |t| shear_scaled(t, 2.0) },
     Fault { name: "horizontal forces halved", codes: SHEAR, spoil: |t| shear_scaled(t, 0.5) },
+    Fault { name: "a plate 1.25 times as strong", codes: &["plates.unequal"], spoil: |t| one_scaled(t, 1.25) },
+    Fault { name: "a plate 0.8 times as strong", codes: &["plates.unequal"], spoil: |t| one_scaled(t, 0.8) },
     Fault { name: "plates turned by 20 deg", codes: SKEWED, spoil: |t| plates_turned(t, 20.0) },
     Fault { name: "plates turned by -30 deg", codes: SKEWED, spoil: |t| plates_turned(t, -30.0) },
     Fault { name: "left and right exchanged", codes: SIDES, spoil: |t| exchanged(&mut t.moving) },
