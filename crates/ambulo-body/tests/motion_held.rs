@@ -1,4 +1,4 @@
-//! Held samples of markers: programs that repeat frames or hold a marker, and people who stand still.
+//! Held samples of markers: programs that repeat frames, hold a marker or draw a line, and people who stand still.
 
 use ambulo_body::findings::{Code, Findings};
 use ambulo_body::model::{BySide, Side};
@@ -97,6 +97,39 @@ fn a_marker_that_is_held_while_the_others_move_is_a_gap_of_this_marker_alone() {
     assert!(said.contains("`M0` 19 frames from 0.610 s"), "{said}");
     assert_eq!(after.markers[1..], recording.markers[1..]);
     assert!(said.contains(&format!("{:?}", Code::MarkersHeldInPlace)));
+}
+
+/// The path of one marker, from one frame to another, as a straight line at constant speed.
+fn draw(recording: &mut MarkerRecording, marker: usize, [from, to]: [usize; 2], step_m: f64) {
+    let path = &mut recording.markers[marker].positions;
+    let (first, last) = (path[from], path[to]);
+    for frame in from + 1..to {
+        let place = first + (last - first) * ((frame - from) as f64 / (to - from) as f64);
+        path[frame] = if step_m > 0.0 { place.map(|x| (x / step_m).round() * step_m) } else { place };
+    }
+}
+
+#[test]
+fn a_line_through_the_path_of_a_marker_is_a_gap_of_this_marker_alone() {
+    for step_m in [0.0, 0.0001] {
+        let mut recording = walk(1.2, 0.2, step_m);
+        draw(&mut recording, 0, [60, 90], step_m);
+        let (after, gaps, said) = released(recording.clone());
+        assert_eq!(gaps, 29, "{said}");
+        assert!(said.contains("MarkersDrawn") && said.contains("`M0` 29 frames from 0.610 s"), "{said}");
+        assert_eq!(after.markers[1..], recording.markers[1..]);
+    }
+    // Too short for a line, or all markers together, as in a recording of few frames a second that was resampled.
+    let mut short = walk(1.2, 0.2, 0.0);
+    draw(&mut short, 0, [60, 68], 0.0);
+    let mut resampled = walk(1.2, 0.2, 0.0);
+    for marker in 0..MARKERS {
+        (0..9).for_each(|piece| draw(&mut resampled, marker, [20 * piece, 20 * piece + 20], 0.0));
+    }
+    for recording in [short, resampled] {
+        let (after, _, said) = released(recording.clone());
+        assert!(said.is_empty() && after == recording, "{said}");
+    }
 }
 
 /// A heel on the ground in a file of whole millimetres repeats its place.

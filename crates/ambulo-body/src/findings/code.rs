@@ -288,6 +288,10 @@ codes! {
         "The height of the markers is not that of a standing person, and a wrong unit does not explain it."
         "Check the unit of the file, and whether markers are not on the person.";
     // Markers.
+    MarkersDrawn "markers.drawn" Warning
+        "A marker follows a straight line at constant speed while the others do not: a gap was filled by a line. These \
+         samples were treated as gaps."
+        "Leave gaps open, or fill them from other markers of the segment.";
     MarkersHeldInPlace "markers.held_in_place" Warning
         "A marker, a sensor or a segment stays exactly in place while the others move: a program filled a gap by \
          holding its last sample. These samples were treated as gaps."

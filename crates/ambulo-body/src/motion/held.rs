@@ -15,6 +15,7 @@
 //!
 //! Pinned by: tests/motion_held.rs
 
+use super::drawn::release_drawn_markers;
 use super::gaps::{LONGEST_GAP_S, bridge_gaps};
 use super::marker_recording::{MarkerPath, MarkerRecording};
 use super::recording::Motion;
@@ -47,9 +48,10 @@ const REGULAR: f64 = 0.7;
 /// Fewer stretches do not show a pattern.
 const PATTERN: usize = 5;
 
-/// Makes gaps of the held samples of markers.
+/// Makes gaps of the held samples of markers, and of those on lines that were drawn through gaps.
 pub fn release_held_markers(recording: &mut MarkerRecording, findings: &mut Findings) {
     release(recording, "markers", findings);
+    release_drawn_markers(recording, findings);
 }
 
 /// Makes gaps of the held samples of sensors, and drops the frames at both ends that have no sample afterwards.
@@ -217,7 +219,7 @@ fn extent(path: &[Vec3]) -> f64 {
 // ---- single markers ----
 
 fn release_single_markers(recording: &mut MarkerRecording, things: &str, findings: &mut Findings) -> bool {
-    let step = smallest_change(recording);
+    let step = recording.resolution_m();
     let found: Vec<(usize, Vec<Range<usize>>)> = (0..recording.markers.len())
         .map(|marker| (marker, held_of_marker(recording, marker, step)))
         .filter(|(_, runs)| !runs.is_empty())
@@ -244,13 +246,6 @@ fn release_single_markers(recording: &mut MarkerRecording, things: &str, finding
         findings.report(Code::MarkersHeldInPlace, message);
     }
     !named.is_empty()
-}
-
-/// The smallest change of any coordinate: the resolution of the file [m].
-fn smallest_change(recording: &MarkerRecording) -> f64 {
-    let paths = recording.markers.iter().map(|marker| &marker.positions);
-    let changes = paths.flat_map(|path| path.windows(2).flat_map(|pair| [0, 1, 2].map(|i| pair[1][i] - pair[0][i])));
-    changes.map(f64::abs).filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 fn held_of_marker(recording: &MarkerRecording, marker: usize, step: f64) -> Vec<Range<usize>> {

@@ -104,6 +104,14 @@ impl MarkerPath {
 }
 
 impl MarkerRecording {
+    /// The smallest change of any coordinate: the resolution of the file [m].
+    pub(super) fn resolution_m(&self) -> f64 {
+        let paths = self.markers.iter().map(|marker| &marker.positions);
+        let pairs = paths.flat_map(|path| path.windows(2));
+        let changes = pairs.flat_map(|pair| [0, 1, 2].map(|axis| (pair[1][axis] - pair[0][axis]).abs()));
+        changes.filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
     /// Number of frames.
     #[must_use]
     pub fn frames(&self) -> usize {

@@ -8,6 +8,7 @@ mod bids;
 mod clock;
 mod curves;
 mod device_recording;
+mod drawn;
 pub mod filter;
 pub mod force_plate;
 mod force_recording;

@@ -319,6 +319,18 @@ pub(super) fn without(file: &mut C3d, names: &[&str]) -> Option<()> {
     Some(())
 }
 
+/// The first of these markers on a straight line at constant speed, for a fifth of the recording from 40 % of it on.
+pub(super) fn drawn(file: &mut C3d, names: &[&str]) -> Option<()> {
+    let path = &mut file.points.iter_mut().find(|point| names.contains(&bare(&point.name)))?.positions;
+    let (from, frames) = (2 * path.len() / 5, path.len() / 5);
+    let [first, last] = [*path.get(from)?, *path.get(from + frames)?];
+    for (i, place) in path[from..from + frames].iter_mut().enumerate() {
+        *place = [0, 1, 2].map(|axis| first[axis] + (last[axis] - first[axis]) * i as f64 / frames as f64);
+    }
+    // A gap at one end was not filled.
+    first.iter().chain(&last).all(|value| value.is_finite() && value.abs() > 0.0).then_some(())
+}
+
 /// All plates this far elsewhere, along the walk or across it [mm].
 pub(super) fn plates_moved(trial: &mut Trial, is_along: bool, distance_mm: f64) -> Option<()> {
     let along = walked_axis(&trial.moving)?;

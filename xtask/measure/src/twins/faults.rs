@@ -1,7 +1,7 @@
 //! The faults of laboratories, and what names them.
 
 use super::changes::{
-    Way, along_limb, clock, corners, corners_of_one, cross_talk, delayed, exchanged, frozen, held, left_handed,
+    Way, along_limb, clock, corners, corners_of_one, cross_talk, delayed, drawn, exchanged, frozen, held, left_handed,
     mirrored_force, moved, one_scaled, other_stands, pair, plate_silent, plates_moved, plates_turned, scaled,
     shear_scaled, two_people, without,
 };
@@ -98,6 +98,8 @@ pub(super) const FAULTS: &[Fault] = &[
     Fault { name: "ankle 40 mm forward", codes: MOVED, spoil: |t| moved(t, ANKLES, Way::Forward, 40.0) },
     Fault { name: "toe 40 mm backward", codes: MOVED, spoil: |t| moved(t, TOES, Way::Backward, 40.0) },
     Fault { name: "front of pelvis 50 mm up", codes: MOVED, spoil: |t| moved(t, FRONTS, Way::AwayFrom(KNEES), 50.0) },
+    Fault { name: "a knee on a line", codes: DRAWN, spoil: |t| drawn(&mut t.moving, KNEES) },
+    Fault { name: "an ankle on a line", codes: DRAWN, spoil: |t| drawn(&mut t.moving, ANKLES) },
     Fault { name: "another person stands", codes: OTHER, spoil: |t| other_stands(t) },
     Fault { name: "two people in the file", codes: SEVERAL, spoil: |t| two_people(t) },
     Fault { name: "standing without a toe", codes: UNSEEN, spoil: |t| without(t.standing.as_mut()?, TOES) },
@@ -120,6 +122,7 @@ const SHEAR: &[&str] = &["plates.shear_gain"];
 const SKEWED: &[&str] = &["plates.skewed"];
 const SIDES: &[&str] = &["markers.sides_exchanged"];
 const PAIR: &[&str] = &["markers.swap"];
+const DRAWN: &[&str] = &["markers.drawn"];
 const MOVED: &[&str] = &["markers.moved"];
 const OTHER: &[&str] = &["calibration.other_person", "calibration.other_limbs"];
 const UNSEEN: &[&str] = &["calibration.placed", "markers.not_measured"];
