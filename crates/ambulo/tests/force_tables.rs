@@ -154,6 +154,14 @@ fn a_column_that_never_moves_is_named_unless_the_table_is_of_a_plane() {
     set(&mut dead, "left_vx", 0..FRAMES, 0.0);
     let said = still(dead).unwrap();
     assert!(said.contains("the force `left` carries a load of 8") && said.contains("one value along x"), "{said}");
+    // Noise without a load, and zeros of either sign under it.
+    let mut silent = columns();
+    let load = silent.iter().find(|(name, _)| name == "left_vy").unwrap().1.clone();
+    for (row, load_n) in load.into_iter().enumerate() {
+        let noise = if row % 2 == 0 { 0.3 } else { -0.3 };
+        set(&mut silent, "left_vx", row..row + 1, if load_n > 10.0 { noise * 0.0 } else { noise });
+    }
+    assert!(still(silent).unwrap().contains("one value along x"));
     let mut plane = columns();
     for load in ["left_vz", "right_vz"] {
         set(&mut plane, load, 0..FRAMES, 0.0);

@@ -494,7 +494,7 @@ codes! {
         "The message states what is missing or wrong in the file.";
     PlatesExcursion "plates.excursion" Warning
         "A channel of a force plate or a force of a table jumps away from its course and back within 50 ms, which no \
-         load does. Straight lines were drawn instead, through all channels of the plate."
+         load does. Straight lines were drawn instead, also in channels that fail with it."
         "Look for a loose cable; the force there is an interpolation.";
     PlatesLost "plates.lost" Warning
         "A force plate or a force of a table lost its signal for longer than 50 ms: it stays at one level between \

@@ -5,7 +5,7 @@ use crate::args::{Handling, Outputs, PrintArgs};
 use crate::caller::Caller;
 use crate::request::CalibrateRequest;
 use crate::{Completion, files, printer};
-use ambulo::findings::Findings;
+use ambulo::findings::{Finding, Findings};
 use ambulo::ground::predict::PersonalErrors;
 use ambulo::job::{Job, Processing};
 use ambulo::study::{GroundSettings, Outcome, personal_errors};
@@ -39,7 +39,8 @@ pub(crate) fn compute(
         let run = forces::compute(&job, Outputs::default(), caller)?;
         printer::warnings_of_trial(trial, run.findings.as_slice(), print);
         for finding in run.findings.as_slice() {
-            findings.report(finding.code, format!("{}: {}", trial.display(), finding.message));
+            let message = format!("{}: {}", trial.display(), finding.message);
+            findings.add(Finding { message, ..finding.clone() });
         }
         outcomes.push(run.into_outcome());
     }
