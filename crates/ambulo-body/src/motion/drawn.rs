@@ -35,7 +35,8 @@ pub(super) fn release_drawn_markers(recording: &mut MarkerRecording, findings: &
     if !named.is_empty() {
         let message = format!(
             "markers follow a straight line at constant speed while the others do not, as if a gap had been filled by \
-             a line; these samples were treated as gaps: {}",
+             a line; these samples were treated as gaps: {}. hint: leave gaps open, or fill them from other markers of \
+             the segment",
             named.join(", ")
         );
         findings.report(Code::MarkersDrawn, message);

@@ -96,8 +96,8 @@ impl ForceRecording {
         runs
     }
 
-    /// Reads rows without a force as unloaded if the table leaves out all light loads: no other row is unloaded, and
-    /// the loads beside those rows are light.
+    /// Reads rows without a force as unloaded if the table leaves out all light loads. It does if hardly any other row
+    /// is unloaded, and if the loads before and after the empty rows are small.
     fn unload_empty_rows(&mut self, findings: &mut Findings) {
         let norms: Vec<f64> = self.force.iter().map(|force| force.norm()).collect();
         let light_n = EMPTY_SHARE * norms.iter().copied().filter(|n| n.is_finite()).fold(0.0, f64::max);
@@ -232,7 +232,7 @@ const FARTHEST_PLAUSIBLE_POINT_M: f64 = 60.0;
 const LOADED_N: f64 = 20.0;
 /// Shortest time without rows that is reported [s].
 const SHORTEST_HOLE_S: f64 = 0.05;
-/// Rows without a force are unloaded beside loads below this share of the largest one.
+/// Rows without a force count as unloaded if the loads before and after them are below this share of the largest one.
 const EMPTY_SHARE: f64 = 0.1;
 /// A force below this is no load [N]; a table with more than one such row in so many rows without a force writes it.
 const UNLOADED_N: f64 = 1.0;

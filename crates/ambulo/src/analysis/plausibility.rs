@@ -44,7 +44,7 @@ fn report_downward(model: &Model, ground: &GroundForces, up: Vec3, findings: &mu
     }
 }
 
-/// What to say about a force on something that it pulls down; `None` if it does not.
+/// The message about a ground force that pulls down what it acts on; `None` if its mean points up.
 pub(crate) fn pulls_down(what: &str, force: &[Vec3], up: Vec3) -> Option<String> {
     let known = force.iter().map(|f| f.dot(&up)).filter(|vertical| vertical.is_finite());
     let mean = known.sum::<f64>() / force.len().max(1) as f64;

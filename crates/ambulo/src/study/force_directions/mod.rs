@@ -8,12 +8,12 @@
 //! Newton's law is the second witness where all feet are measured: with the right sign Σ F = m a. A direction is called
 //! wrong only if the other sign does not fit the acceleration of the mass centre worse.
 //!
-//! A force of another size, or turned by some degrees, needs both witnesses. On 222 plates of the same recordings the
-//! fore-aft force is 0.65 to 1.3 of the expected one (median 0.83), less where a person starts or stops, and turned by
-//! less than 11 degrees on all but 5; no correction of those beyond makes the residual of Newton's law as small as
-//! [`FITS_BETTER`]. `cargo xtask twins` counts how many wrong ones are named.
+//! A force of another size, or turned by some degrees, needs both witnesses. On 222 plates of recordings that are used
+//! as clean the fore-aft force is 0.65 to 1.3 of the expected one (median 0.83) on all but 12, and turned by less than
+//! 11 degrees on all but 5; why those differ is not known. No correction of them makes the residual of Newton's law as
+//! small as [`FITS_BETTER`]. `cargo xtask twins` counts how many wrong ones are named.
 //!
-//! Pinned by: tests/quality.rs
+//! Pinned by: tests/quality.rs, ambulo-cli/tests/plates.rs
 
 mod unequal;
 
@@ -67,7 +67,7 @@ const NOT_WORSE: f64 = 1.2;
 pub(super) struct ForceDirections {
     /// One sentence per wrong direction, with its agreement.
     faults: Vec<(String, f64)>,
-    /// One sentence per fault that both witnesses see.
+    /// One sentence per fault of size or of some degrees, with its code.
     misfits: Vec<(Code, String)>,
 }
 
@@ -100,12 +100,12 @@ struct Sums {
     steps: usize,
 }
 
-/// What makes a horizontal force agree with those of people.
+/// The change of a horizontal force after which it leads to the mass centre as it does in other people.
 #[derive(Debug, Clone, Copy)]
 struct Correction {
     /// The fore-aft force as a share of the expected one.
     gain: f64,
-    /// What the horizontal force is multiplied by.
+    /// Factor by which the change multiplies the horizontal force.
     factor: f64,
     /// The angle by which it is turned to the left [rad].
     left: f64,
@@ -308,7 +308,8 @@ impl Body {
         corrections.iter().enumerate().filter_map(found).collect()
     }
 
-    /// What makes a force agree with those of people; `None` if it does, or shows nothing.
+    /// The change that a horizontal force needs by its direction alone; `None` if it needs none, or is too small to
+    /// tell.
     fn correction(&self, sensor: &Sensor<'_>) -> Option<Correction> {
         let along = usize::from(sensor.axes[1].x.abs() > sensor.axes[0].x.abs());
         if !sensor.sums.shows(along, SHOWN_BW * self.weight_n) {

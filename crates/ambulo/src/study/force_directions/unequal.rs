@@ -2,9 +2,9 @@
 //!
 //! While one plate carries the body alone, its vertical force is m (a - g), whatever gait the person has. The mean of
 //! the measured force over that of the needed one has the same error of mass and motion on all plates, so that plates
-//! are compared with each other. In clean recordings the largest is at most 1.06 times the smallest, and 1.11 to 1.13
-//! in three fast walks of one laboratory; `cargo xtask twins` counts how many plates of 1.25 times the strength are
-//! named.
+//! are compared with each other. In recordings that are used as clean the largest is at most 1.06 times the smallest,
+//! but 1.11 to 1.13 in three fast walks of one laboratory, and more in one sample of a file format, which is named.
+//! `cargo xtask twins` counts how many plates of 1.25 times the strength are named.
 //!
 //! Pinned by: ambulo-cli/tests/plates.rs
 
@@ -16,8 +16,8 @@ const MOST: f64 = 1.14;
 /// A plate carries the body alone with this share of the weight, while all others have less than the second one.
 const CARRIES_BW: f64 = 0.6;
 const UNLOADED_BW: f64 = 0.03;
-/// Most scatter of the measured force about its share of the needed one, rms, as a share of the weight: in a walk
-/// it is less, although motion is filtered more than forces.
+/// Most scatter of the measured force about its share of the needed one, rms, as a share of the weight. Walks with one
+/// plate of 1.25 times the strength stay below it, also those of children; a motion in a wrong unit does not.
 const MOST_SCATTER_BW: f64 = 0.4;
 /// Shortest time alone on a plate [s].
 const SHORTEST_S: f64 = 0.25;
