@@ -10,7 +10,6 @@
 //! | [`model`] | bodies, joints, coordinates, markers and anatomy |
 //! | [`motion`] | recordings of markers, coordinates, skeletons, force plates and sensors |
 //! | [`kinematics`] | from markers to coordinates, and from coordinates to the motion of all bodies |
-//! | [`functional`] | centres of hips and axes of knees from a movement |
 //! | [`contact`] | contact points, friction, rigid and compliant laws |
 //! | [`dynamics`] | inverse dynamics, and bodies under constraints |
 
@@ -27,8 +26,6 @@ pub mod motion;
 
 pub mod kinematics;
 
-pub mod functional;
-
 pub mod contact;
 
 pub mod dynamics;
@@ -44,7 +41,7 @@ pub mod internals {
     pub use crate::contact::separating_axis::{CUTTING, Cut, Line, VERTEX, cut_polygon};
     pub use crate::dynamics::block::transport;
     pub use crate::dynamics::residual_reduction::bordered::BorderedSystem;
-    pub use crate::kinematics::calibration::axes::{about_x, about_y, about_z, fit_pose};
+    pub use crate::kinematics::calibration::axes::{about_x, about_y, about_z};
     pub use crate::kinematics::calibration::legs::{bending_axis, chord};
     pub use crate::kinematics::marker_fit::branch_matrix::Branches;
     pub use crate::kinematics::marker_fit::gaps::{Determination, bridge_gaps, fill_gap};

@@ -1,7 +1,8 @@
 //! Rotations from directions, and points in frames.
 
-use ambulo_body::internals::{about_x, about_y, about_z, fit_pose};
+use ambulo_body::internals::{about_x, about_y, about_z};
 use ambulo_body::kinematics::angles_zxy;
+use ambulo_body::kinematics::calibration::fit_pose;
 use ambulo_body::spatial::{Pose, Vec3};
 
 #[test]

@@ -13,7 +13,6 @@ mod contact_separating_axis;
 mod contact_shape;
 mod dynamics_bordered;
 mod dynamics_solve;
-mod functional;
 mod kinematics_attempts;
 mod kinematics_axes;
 mod kinematics_branch_matrix;

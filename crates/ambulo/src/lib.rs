@@ -79,7 +79,7 @@
 
 #[doc(inline)]
 pub use ambulo_body::{
-    contact, dynamics, findings, formats, functional, kinematics, model, motion, numerics, spatial, toml_reader,
+    contact, dynamics, findings, formats, kinematics, model, motion, numerics, spatial, toml_reader,
 };
 #[doc(inline)]
 pub use ambulo_muscles as muscles;
@@ -87,6 +87,9 @@ pub use ambulo_walk::{figure_shape, gait, optimal};
 
 #[doc(hidden)]
 pub mod technical_markers;
+
+#[doc(hidden)]
+pub mod functional;
 
 pub mod ground;
 

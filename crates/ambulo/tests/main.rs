@@ -61,6 +61,7 @@ mod force_filter;
 mod force_plate;
 mod force_tables;
 mod full_body;
+mod functional;
 mod functions;
 mod gait_accuracy;
 mod gait_coordinates;

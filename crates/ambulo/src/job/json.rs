@@ -75,6 +75,7 @@ impl<T: FromStr<Err: Display>> Visitor<'_> for TextVisitor<T> {
 #[cfg(feature = "schema")]
 #[derive(schemars::JsonSchema)]
 #[schemars(untagged, inline)]
+#[doc(hidden)]
 pub enum TextOrNumber {
     /// A number.
     Number(f64),

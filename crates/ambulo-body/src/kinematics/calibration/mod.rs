@@ -46,7 +46,7 @@ mod report;
 mod trunk;
 mod upright;
 
-pub use axes::angles_zxy;
+pub use axes::{angles_zxy, fit_pose};
 pub use error::CalibrationError;
 pub use hip_centre::HipRegression;
 pub(in crate::kinematics) use legs::stature;

@@ -1,13 +1,13 @@
 //! Functional hip centres and knee axes of made movements, with skin that slides by 10 mm.
 
-use ambulo_body::functional::{functional_joints, knee_cross_talk, symmetrical_axis, symmetrical_centre};
+use ambulo::functional::{functional_joints, knee_cross_talk, symmetrical_axis, symmetrical_centre};
+use ambulo::model::anthropometry::{Build, SegmentTable};
+use ambulo::model::full_body::full_body;
+use ambulo::model::{BodyId, Marker, Model, Side};
+use ambulo::motion::{MarkerPath, MarkerRecording};
+use ambulo::numerics::Random;
+use ambulo::spatial::{Mat3, Pose, Vec3, rotation_about};
 use ambulo_body::internals::{about_x, about_y, about_z};
-use ambulo_body::model::anthropometry::{Build, SegmentTable};
-use ambulo_body::model::full_body::full_body;
-use ambulo_body::model::{BodyId, Marker, Model, Side};
-use ambulo_body::motion::{MarkerPath, MarkerRecording};
-use ambulo_body::numerics::Random;
-use ambulo_body::spatial::{Mat3, Pose, Vec3, rotation_about};
 use std::f64::consts::TAU;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;

@@ -19,7 +19,7 @@
 //!
 //! Pinned by: tests/functional.rs, tests/segment_angles.rs
 
-use crate::kinematics::calibration::axes::fit_pose;
+use crate::kinematics::calibration::fit_pose;
 use crate::model::{BodyId, Model, Side};
 use crate::motion::{MarkerPath, MarkerRecording};
 use crate::spatial::{Mat3, Pose, Vec3, rotation};

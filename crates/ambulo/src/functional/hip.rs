@@ -34,7 +34,7 @@
 
 use super::MOST_FRAMES;
 use super::segments::LegSegments;
-use crate::kinematics::calibration::axes::fit_pose;
+use crate::kinematics::calibration::fit_pose;
 use crate::motion::MarkerRecording;
 use crate::numerics::elementary::asin;
 use crate::numerics::{DenseLu, Order, Random, counted, degrees, sampled};
