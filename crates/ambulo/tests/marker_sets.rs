@@ -104,6 +104,26 @@ fn markers_are_on_the_body_where_their_names_mean() {
 }
 
 #[test]
+fn names_are_recognised_the_same_whatever_was_asked_before() {
+    let plug_in_gait = "LASI RASI LPSI RPSI LKNE RKNE LANK RANK LHEE RHEE LTOE RTOE";
+    let lists: Vec<String> = (0..12).map(|k| format!("{plug_in_gait} further{k}")).collect();
+    let first: Vec<_> = lists.iter().map(|names| recognised(names)).collect();
+    for (k, (names, first)) in lists.iter().zip(&first).enumerate() {
+        assert_eq!(first.unknown, [format!("further{k}")]);
+        for _ in 0..2 {
+            assert_eq!(recognised(names), *first);
+        }
+    }
+    // A laboratory's own set decides, also where the built-in ones were asked for the same names.
+    let own = "name = 'own'\n[[single]]\nnames = 'further0'\nside = 'right'\nsegment = 'tibia'";
+    let own = MarkerSet::from_toml(own).unwrap();
+    let found = RecognisedMarkers::with(Some(&own), lists[0].split_whitespace()).unwrap();
+    assert!(found.sets.contains(&"own".to_owned()), "{:?}", found.sets);
+    assert!(found.unknown.is_empty(), "{:?}", found.unknown);
+    assert_eq!(recognised(&lists[0]), first[0]);
+}
+
+#[test]
 fn names_of_real_recordings_are_recognised() {
     let lower = recognised("LASI RASI LPSI RPSI LTHI LKNE LTIB LANK LHEE LTOE RTHI RKNE RTIB RANK RHEE RTOE");
     assert_eq!(lower.sets, ["plug-in-gait"]);

@@ -14,7 +14,7 @@
 //! Pinned by: tests/force_plate.rs, tests/force_tables.rs
 
 use crate::findings::{Code, Findings, and_more_times};
-use crate::numerics::{counted, extremes, sort_numbers};
+use crate::numerics::{counted, extremes, number_at};
 use std::ops::Range;
 
 /// A plate whose force varies by less than this was not stepped on [N].
@@ -187,8 +187,9 @@ fn faults(samples: &[f64], rate_hz: f64, least: f64) -> Vec<(Range<usize>, Fault
                 && changes[*end] * changes[at] < 0.0
                 && (samples[end + 1] - samples[at]).abs() < away
         };
-        let excursion = (at + 1..changes.len().min(at + long(LONGEST_S) + 1)).find(is_back);
-        let fault = match excursion.filter(|_| changes[at].abs() > away) {
+        let jumps_away = changes[at].abs() > away;
+        let excursion = || (at + 1..changes.len().min(at + long(LONGEST_S) + 1)).find(is_back);
+        let fault = match jumps_away.then(excursion).flatten() {
             Some(end) => Some((at + 1..end + 1, Fault::Excursion)),
             None if changes[at].abs() > at_level => level(samples, at, noise, long),
             None => None,
@@ -251,8 +252,8 @@ pub(super) fn range(samples: &[f64]) -> Option<f64> {
 /// The finite numbers of a list at these shares of it, in order of size.
 fn places<const N: usize>(list: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
     let mut list: Vec<f64> = list.iter().copied().filter(|x| x.is_finite()).collect();
-    sort_numbers(&mut list);
-    (!list.is_empty()).then(|| shares.map(|share| list[(share * list.len() as f64) as usize]))
+    let last = list.len().checked_sub(1)?;
+    Some(shares.map(|share| number_at(&mut list, ((share * (last + 1) as f64) as usize).min(last))))
 }
 
 /// Whether all samples of a channel are the same.

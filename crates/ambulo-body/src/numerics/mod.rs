@@ -45,7 +45,7 @@ pub use matrix_product::product;
 #[doc(hidden)]
 pub use natural_spline::SplineError;
 pub use natural_spline::{NaturalSpline, SplineDegree};
-pub use order::{Order, sampled, sort_numbers};
+pub use order::{Order, number_at, sampled, sort_numbers};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]

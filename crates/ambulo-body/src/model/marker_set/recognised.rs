@@ -5,7 +5,7 @@ use super::{Landmark, MarkerDefinition, MarkerSet, MarkerSetError};
 use crate::model::Side;
 use crate::toml_reader::listed;
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// Smallest number of further names that an additional set must explain; fewer may be coincidence.
 const LEAST_GAIN: usize = 2;
@@ -63,6 +63,11 @@ pub enum RecognitionError {
     Set(#[from] MarkerSetError),
 }
 
+/// Lists of names that the built-in sets recognised last: the parts of one computation ask for the same ones.
+static KNOWN: Mutex<Vec<(Vec<String>, RecognisedMarkers)>> = Mutex::new(Vec::new());
+/// Most lists that are kept: those of a trial and its standing trial, in several threads.
+const MOST_KNOWN: usize = 8;
+
 /// The names of the built-in sets, in their order.
 static BUILT_IN_INDICES: LazyLock<Vec<NameIndex<'static>>> =
     LazyLock::new(|| MarkerSet::built_in().unwrap_or_default().iter().map(NameIndex::new).collect());
@@ -91,7 +96,22 @@ impl RecognisedMarkers {
         names: impl IntoIterator<Item = &'n str>,
     ) -> Result<RecognisedMarkers, RecognitionError> {
         let names: Vec<&str> = names.into_iter().collect();
-        let plain = RecordedName::all(&names);
+        if own.is_some() {
+            return RecognisedMarkers::found(own, &names);
+        }
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, recognised)) = known().iter().find(|(known, _)| *known == names) {
+            return Ok(recognised.clone());
+        }
+        let recognised = RecognisedMarkers::found(None, &names)?;
+        let mut known = known();
+        known.truncate(MOST_KNOWN - 1);
+        known.insert(0, (names.into_iter().map(str::to_owned).collect(), recognised.clone()));
+        Ok(recognised)
+    }
+
+    fn found(own: Option<&MarkerSet>, names: &[&str]) -> Result<RecognisedMarkers, RecognitionError> {
+        let plain = RecordedName::all(names);
         let index = own.map(NameIndex::new);
         let sets: Vec<&MarkerSet> = own.into_iter().chain(MarkerSet::built_in()?).collect();
         let matches = [NameReading::Written, NameReading::Meant].map(|reading| {
@@ -104,11 +124,11 @@ impl RecognisedMarkers {
         }
         search.all_rounds();
         if search.used.is_empty() {
-            return Err(search.nothing(&names));
+            return Err(search.nothing(names));
         }
         let Search { found, used, .. } = search;
         let used: Vec<&MarkerSet> = used.into_iter().map(|set| sets[set]).collect();
-        Ok(RecognisedMarkers::of(&used, &names, &found))
+        Ok(RecognisedMarkers::of(&used, names, &found))
     }
 
     fn of(used: &[&MarkerSet], names: &[&str], found: &[Option<&MarkerDefinition>]) -> RecognisedMarkers {

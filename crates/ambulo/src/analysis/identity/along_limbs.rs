@@ -262,11 +262,11 @@ fn gain(witnesses: &[BySide<Distances>; 2], recording: usize, side: Side, pair: 
     let at = |recording: usize, side: Side| &witnesses[recording][side];
     let (own, same) = (at(recording, side), at(1 - recording, side));
     let mirrored = [at(0, side.other()), at(1, side.other())];
-    let [stated, exchanged] = contradiction(own, &[same], pair)?;
-    let by_all = contradiction(own, &[same, mirrored[0], mirrored[1]], pair)?;
-    let [stated_there, exchanged_there] = contradiction(same, &mirrored, pair)?;
-    let is_here = is_exchanged([stated, exchanged]) && is_exchanged(by_all) && stated_there < exchanged_there;
-    is_here.then_some(stated - exchanged)
+    let agree = |of: &Distances, others: &[&Distances]| contradiction(of, others, pair);
+    let [stated, exchanged] = agree(own, &[same]).filter(|found| is_exchanged(*found))?;
+    agree(own, &[same, mirrored[0], mirrored[1]]).filter(|found| is_exchanged(*found))?;
+    let [stated_there, exchanged_there] = agree(same, &mirrored)?;
+    (stated_there < exchanged_there).then_some(stated - exchanged)
 }
 
 /// How much the distances of a pair contradict other witnesses, as stated and with the labels exchanged [m].
