@@ -42,6 +42,17 @@ async function started(page: string): Promise<Running> {
   throw new Error("the command named no page");
 }
 
+/** The command at a port that another one has just left: the system may give it to a connection in between, so it is tried again. */
+async function startedAgain(port: string, trials = 50): Promise<Running> {
+  try {
+    return await started(port);
+  } catch (error) {
+    if (trials <= 1) throw error;
+    await new Promise((done) => setTimeout(done, 100));
+    return startedAgain(port, trials - 1);
+  }
+}
+
 /** Sends the walk in real time, again and again, until it is told to end. The numbers of the frames begin at zero each time, as for a new recording. */
 function send({ process }: Running): () => void {
   const { heading, frames } = lines();
@@ -130,7 +141,7 @@ test("a live page finds the program again", async () => {
     await until(page, "waiting");
     first.process.kill();
     await until(page, "lost");
-    const second = await started(new URL(first.address).port);
+    const second = await startedAgain(new URL(first.address).port);
     try {
       await until(page, "waiting");
       assert.equal(await stateOf(page), "waiting");
