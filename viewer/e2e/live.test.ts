@@ -35,14 +35,16 @@ async function started(page: string): Promise<Running> {
   child.stdout.resume();
   // Frames that wait when the command is ended would hide why a test has failed.
   child.stdin.on("error", () => {});
+  const said = [];
   for await (const line of createInterface({ input: child.stderr })) {
     const found = /http:\S+/.exec(line);
     if (found) return { process: child, address: found[0] };
+    said.push(line);
   }
-  throw new Error("the command named no page");
+  throw new Error(`the command named no page: ${said.join(" ")}`);
 }
 
-/** The command at a port that another one has just left: the system may give it to a connection in between, so it is tried again. */
+/** The command at a port that another one has just left, started again as long as it is refused, as a person would. */
 async function startedAgain(port: string, trials = 50): Promise<Running> {
   try {
     return await started(port);
