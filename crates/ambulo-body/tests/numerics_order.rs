@@ -1,6 +1,6 @@
 //! Lists in order by numbers, against the sort of the standard library.
 
-use ambulo_body::numerics::{Order, Random, median, number_at, sort_numbers};
+use ambulo_body::numerics::{Order, Random, sort_numbers};
 
 /// Elements with few different numbers, so that many are equal, and with their first places.
 fn elements(count: usize, seed: u64) -> Vec<(f64, f64, usize)> {
@@ -33,19 +33,4 @@ fn what_is_no_number_is_last() {
     assert_eq!(numbers[..5], [f64::NEG_INFINITY, -0.0, 0.0, 3.0, f64::INFINITY]);
     pairs.sort_by_number(|pair| pair.0);
     assert_eq!(pairs.map(|pair| pair.0.to_bits()), numbers.map(f64::to_bits));
-}
-
-#[test]
-fn the_number_at_a_place_and_the_median_are_those_of_the_sorted_list() {
-    for count in [1, 2, 3, 8, 51, 300] {
-        let numbers: Vec<f64> = elements(count, count as u64).iter().map(|element| element.0 + element.1).collect();
-        let mut sorted = numbers.clone();
-        sort_numbers(&mut sorted);
-        for place in [0, count / 2, count - 1] {
-            assert_eq!(number_at(&mut numbers.clone(), place).to_bits(), sorted[place].to_bits(), "{count}, {place}");
-        }
-        let middle = 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
-        assert_eq!(median(numbers).map(f64::to_bits), Some(middle.to_bits()), "{count}");
-    }
-    assert_eq!(median([f64::NAN, f64::INFINITY]), None);
 }

@@ -11,7 +11,7 @@
 use crate::model::Model;
 use crate::motion::{MarkerRecording, Motion};
 use crate::numerics::elementary::powi;
-use crate::numerics::{median, sort_numbers};
+use crate::numerics::{median, quantiles};
 use crate::spatial::STANDARD_GRAVITY;
 use std::ops::Range;
 
@@ -48,9 +48,7 @@ impl FlightGravity {
     #[must_use]
     pub fn of(model: &Model, motion: &Motion, markers: &MarkerRecording) -> Option<FlightGravity> {
         let lowest = lowest_points(markers);
-        let mut sorted: Vec<f64> = lowest.iter().copied().filter(|y| y.is_finite()).collect();
-        sort_numbers(&mut sorted);
-        let floor = *sorted.get((FLOOR * sorted.len() as f64) as usize)?;
+        let [floor] = quantiles(lowest.iter().copied(), [FLOOR])?;
         let height = |frame: usize| {
             let value = |column: &Option<Vec<f64>>| column.as_ref().map_or(0.0, |column| column[frame]);
             model.mass_center(&motion.columns.iter().map(value).collect::<Vec<f64>>()).y

@@ -14,7 +14,7 @@ use crate::model::subject_shape::{SegmentShape, SolePlacement, SubjectShape, res
 use crate::model::{BodyId, Marker, Side};
 use crate::motion::skeleton::POINT_DISTANCE_M;
 use crate::motion::{MarkerPath, MarkerRecording};
-use crate::numerics::{median, sort_numbers};
+use crate::numerics::{median, quantiles};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Quantile of the ankle height that corresponds to a flat foot: stance is 60 % of a cycle, and the foot is flat, with
@@ -61,9 +61,7 @@ pub(super) fn body_of_joint_centres(
 pub(super) fn standing_ankle_height(markers: &MarkerRecording, sides: &[Side]) -> f64 {
     let measured = Measured { markers };
     let paths = sides.iter().filter_map(|side| measured.path(&sided("ankle", *side)));
-    let mut heights: Vec<f64> = paths.flatten().map(|place| place.y).filter(|y| y.is_finite()).collect();
-    sort_numbers(&mut heights);
-    heights.get((STANDING * heights.len() as f64) as usize).copied().unwrap_or(f64::NAN)
+    quantiles(paths.flatten().map(|place| place.y), [STANDING]).map_or(f64::NAN, |[height]| height)
 }
 
 /// Median distance of two joint centres of a side [m]; `None` if they are never recorded together.

@@ -14,7 +14,7 @@
 //! Pinned by: tests/force_plate.rs, tests/force_tables.rs
 
 use crate::findings::{Code, Findings, and_more_times};
-use crate::numerics::{counted, extremes, number_at};
+use crate::numerics::{counted, extremes, quantiles};
 use std::ops::Range;
 
 /// A plate whose force varies by less than this was not stepped on [N].
@@ -230,8 +230,7 @@ fn level(samples: &[f64], at: usize, noise: f64, long: impl Fn(f64) -> usize) ->
 /// The smallest jump, and three times a change that one in a hundred samples exceeds. `None` for a channel that does
 /// not change, or without samples.
 fn jumps(samples: &[f64], changes: &[f64]) -> Option<[f64; 2]> {
-    let sizes: Vec<f64> = changes.iter().map(|change| change.abs()).collect();
-    let [change] = places(&sizes, [0.99])?;
+    let [change] = quantiles(changes.iter().map(|change| change.abs()), [0.99])?;
     let noise = JUMP_RATIO * change;
     Some([(JUMP_SHARE * range(samples)?).max(noise), noise]).filter(|[jump, _]| *jump > 0.0)
 }
@@ -245,15 +244,8 @@ fn is_level(samples: &[f64], most: f64) -> bool {
 
 /// Range of a channel without its rarest values; `None` without samples.
 pub(super) fn range(samples: &[f64]) -> Option<f64> {
-    let [low, high] = places(samples, [RARE, 1.0 - RARE])?;
+    let [low, high] = quantiles(samples.iter().copied(), [RARE, 1.0 - RARE])?;
     Some(high - low)
-}
-
-/// The finite numbers of a list at these shares of it, in order of size.
-fn places<const N: usize>(list: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
-    let mut list: Vec<f64> = list.iter().copied().filter(|x| x.is_finite()).collect();
-    let last = list.len().checked_sub(1)?;
-    Some(shares.map(|share| number_at(&mut list, ((share * (last + 1) as f64) as usize).min(last))))
 }
 
 /// Whether all samples of a channel are the same.

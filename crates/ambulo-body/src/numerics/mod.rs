@@ -45,13 +45,13 @@ pub use matrix_product::product;
 #[doc(hidden)]
 pub use natural_spline::SplineError;
 pub use natural_spline::{NaturalSpline, SplineDegree};
-pub use order::{Order, number_at, sampled, sort_numbers};
+pub use order::{Order, sampled, sort_numbers};
 pub use profile_cholesky::{ProfileFactor, ProfileMatrix};
 pub use random::Random;
 #[doc(hidden)]
 pub use shown::Shown;
 pub use spline_fitter::{Smoothing, SplineFitter};
-pub use statistics::{correlation, extremes, finite_mean, mean, median, range, rms, sample_deviation};
+pub use statistics::{correlation, extremes, finite_mean, mean, median, quantiles, range, rms, sample_deviation};
 pub use uniform_spline::SPLINES_AT_ONCE;
 #[doc(hidden)]
 pub use uniform_spline::UniformSplines;

@@ -38,14 +38,6 @@ pub fn sort_numbers(numbers: &mut [f64]) {
     numbers.sort_by(f64::total_cmp);
 }
 
-/// The number that has this place, counted from 0, once the numbers are in order. Numbers before it are not larger.
-///
-/// # Panics
-/// If there is no such place.
-pub fn number_at(numbers: &mut [f64], place: usize) -> f64 {
-    *numbers.select_nth_unstable_by(place, f64::total_cmp).1
-}
-
 /// Places of numbers, that of the smallest first.
 fn ranks(numbers: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..numbers.len()).collect();

@@ -1,8 +1,6 @@
-//! Statistics of numbers: mean, median, extremes, root mean square, standard deviation, correlation.
+//! Statistics of numbers: mean, median, quantiles, extremes, root mean square, standard deviation, correlation.
 //!
 //! Sums run from the first number to the last, so that equal numbers give equal bits. Pinned by: tests/statistics.rs
-
-use super::order::number_at;
 
 /// Mean; 0 without numbers.
 #[must_use]
@@ -24,10 +22,27 @@ pub fn finite_mean(values: impl IntoIterator<Item = f64>) -> f64 {
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut list: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
     let middle = list.len() / 2;
-    let has_two = list.len() == 2 * middle;
     let upper = (!list.is_empty()).then(|| number_at(&mut list, middle))?;
-    let lower = if has_two { list[..middle].iter().fold(f64::MIN, |most, x| most.max(*x)) } else { upper };
+    let has_one = list.len() > 2 * middle;
+    // The numbers before the place are not larger than the one at it.
+    let lower = if has_one { upper } else { extremes(&list[..middle]).1 };
     Some(0.5 * (lower + upper))
+}
+
+/// The finite values that these shares of them are below: of n in order of size the one at place ⌊share n⌋, counted
+/// from 0; the largest for a share of 1. `None` if no value is finite.
+#[must_use]
+pub fn quantiles<const N: usize>(values: impl IntoIterator<Item = f64>, shares: [f64; N]) -> Option<[f64; N]> {
+    let mut list: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+    let last = list.len().checked_sub(1)?;
+    let place = |share: f64| ((share * (last + 1) as f64) as usize).min(last);
+    Some(shares.map(|share| number_at(&mut list, place(share))))
+}
+
+/// The number at this place, counted from 0, of a list in order; the list is put into an order in which the numbers
+/// before it are not larger.
+fn number_at(list: &mut [f64], place: usize) -> f64 {
+    *list.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// Smallest and largest number; ∞ and -∞ without numbers.

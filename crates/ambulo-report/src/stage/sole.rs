@@ -5,7 +5,7 @@
 
 use super::{ForceRole, Stage};
 use ambulo::model::Side;
-use ambulo::numerics::sort_numbers;
+use ambulo::numerics::quantiles;
 
 /// Share of body weight above which a foot is certainly in stance.
 const ENOUGH: f64 = 0.2;
@@ -23,9 +23,8 @@ pub(super) fn sunk(stage: &Stage) -> [f64; 2] {
             let heights = soles.map(|contact| stage.bodies[contact.body].path.place(instant, contact.place).y);
             heights.min_by(f64::total_cmp)
         };
-        let mut gaps: Vec<f64> = (0..stage.grid.frames).filter(carries).filter_map(lowest).collect();
-        sort_numbers(&mut gaps);
-        let median = gaps.get(gaps.len() / 2).map_or(0.0, |height| height - stage.floor_m);
+        let heights = (0..stage.grid.frames).filter(carries).filter_map(lowest);
+        let median = quantiles(heights, [0.5]).map_or(0.0, |[height]| height - stage.floor_m);
         median.clamp(-MOST_SUNK, MOST_SUNK)
     })
 }

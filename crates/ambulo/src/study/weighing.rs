@@ -22,7 +22,7 @@ use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::anatomy::Sole;
 use crate::model::{BySide, Model, Side};
 use crate::motion::{Event, EventKind, ForceRecording, TimeGrid, interpolate};
-use crate::numerics::{Order, sort_numbers};
+use crate::numerics::{Order, quantiles, sort_numbers};
 use crate::spatial::Vec3;
 
 /// Error of a velocity of the mass centre where the recording is too short to measure it [m/s]; it counts as much as
@@ -323,8 +323,7 @@ fn median_stride_s(events: &[Event]) -> Option<f64> {
             strides.extend(times_of(events, side, kind).windows(2).map(|pair| pair[1] - pair[0]));
         }
     }
-    sort_numbers(&mut strides);
-    strides.get(strides.len() / 2).copied()
+    quantiles(strides, [0.5]).map(|[stride]| stride)
 }
 
 fn contacts_of(model: &Model, forces: &[ForceRecording], up: Vec3, side: Side) -> Vec<Contact> {

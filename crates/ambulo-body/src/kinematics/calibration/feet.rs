@@ -9,7 +9,7 @@ use crate::model::marker_set::Landmark;
 use crate::model::subject_shape::SolePlacement;
 use crate::model::{BySide, Side};
 use crate::numerics::elementary::{atan2, hypot};
-use crate::numerics::{degrees, median, sort_numbers};
+use crate::numerics::{degrees, median, quantiles};
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// In a walk a foot is flat while heel and toe markers are at most this high above their lowest positions [m].
@@ -247,9 +247,8 @@ impl Finder<'_> {
 }
 
 /// The fifth percentile: a lowest value without outliers.
-fn fifth_percentile(mut values: Vec<f64>) -> f64 {
-    sort_numbers(&mut values);
-    values.get(values.len() / 20).copied().unwrap_or(f64::NAN)
+fn fifth_percentile(values: Vec<f64>) -> f64 {
+    quantiles(values, [0.05]).map_or(f64::NAN, |[low]| low)
 }
 
 /// Horizontal length [m].

@@ -6,7 +6,7 @@
 //! FORCE_PLATFORM:ZERO frames of the file have the same level and the load is several times as large.
 //! Pinned by: tests/force_plate.rs
 
-use crate::numerics::{finite_mean, sort_numbers};
+use crate::numerics::{finite_mean, quantiles};
 use std::ops::Range;
 
 /// Length of a block [s].
@@ -96,14 +96,10 @@ fn blocks(vertical: &[f64], length: usize) -> Vec<Block> {
 
 /// The quiet blocks at the lowest level.
 fn unloaded(blocks: &[Block]) -> Option<Vec<&Block>> {
-    let mut deviations: Vec<f64> = blocks.iter().map(|b| b.deviation).collect();
-    sort_numbers(&mut deviations);
-    let quietest = *deviations.get(deviations.len() / 20)?;
+    let [quietest] = quantiles(blocks.iter().map(|block| block.deviation), [0.05])?;
     let limit = QUIET_N.max(QUIET_FACTOR * quietest);
     let quiet: Vec<&Block> = blocks.iter().filter(|b| b.deviation <= limit).collect();
-    let mut means: Vec<f64> = quiet.iter().map(|b| b.mean).collect();
-    sort_numbers(&mut means);
-    let lowest = *means.get(means.len() / 20)?;
+    let [lowest] = quantiles(quiet.iter().map(|block| block.mean), [0.05])?;
     let width = LEVEL_WIDTH_N.max(QUIET_FACTOR * quietest);
     Some(quiet.into_iter().filter(|b| (b.mean - lowest).abs() <= width).collect())
 }

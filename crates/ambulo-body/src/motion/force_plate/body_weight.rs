@@ -8,7 +8,7 @@
 //!
 //! Pinned by: tests/motion_body_weight.rs
 
-use crate::numerics::{median, sort_numbers};
+use crate::numerics::{median, quantiles};
 
 /// Range of body weights, from a small child to the heaviest person [N].
 const PERSON_N: [f64; 2] = [50.0, 3000.0];
@@ -97,10 +97,7 @@ fn off(a: f64, b: f64) -> f64 {
 /// there is no whole step, as in noise.
 #[must_use]
 pub fn stepped_weight(times: &[f64], vertical: &[f64]) -> Option<f64> {
-    let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
-    sort_numbers(&mut sorted);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
-    let (unloaded, most) = (at(0.05)?, at(0.998)?);
+    let [unloaded, most] = quantiles(vertical.iter().copied(), [0.05, 0.998])?;
     let load: Vec<f64> = vertical.iter().map(|x| x - unloaded).collect();
     let limit = LOADED * (most - unloaded);
     let indices: Vec<usize> = (0..load.len().min(times.len())).collect();

@@ -7,7 +7,7 @@ use super::{PlateRecording, PlateSettings, units};
 use crate::findings::{Code, Findings};
 use crate::motion::guessed_unit::metres_per_unit;
 use crate::motion::subject_parameters::subject_from_c3d;
-use crate::numerics::{Shown, median, sort_numbers};
+use crate::numerics::{Shown, median, quantiles, sort_numbers};
 use crate::spatial::{STANDARD_GRAVITY, Vec3};
 use ambulo_formats::c3d::{C3d, Channel, Platform};
 use std::ops::Range;
@@ -166,10 +166,7 @@ fn standing_weight(plates: &[&PlateSource]) -> Option<f64> {
         plates.iter().filter_map(|plate| Some((*plate, plate.load()?))).collect();
     let samples = loads.iter().map(|(_, load)| load.len()).min()?;
     let total = |i: usize| loads.iter().map(|(plate, load)| load[i] * plate.units.force_n).sum::<f64>();
-    let mut sorted: Vec<f64> = (0..samples).map(total).filter(|x| x.is_finite()).collect();
-    sort_numbers(&mut sorted);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
-    let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
+    let [low, middle, high] = quantiles((0..samples).map(total), [0.05, 0.5, 0.95])?;
     let is_steady = middle > 0.0 && high - low < STEADY * middle;
     (is_steady && is_above(&loads)).then_some(middle)
 }

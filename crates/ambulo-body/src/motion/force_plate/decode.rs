@@ -8,7 +8,7 @@ use super::kind::{Layout, PlateKind, Units};
 use super::surface::Surface;
 use super::{PlateRecording, PlateSettings};
 use crate::findings::{Code, Findings};
-use crate::numerics::{Order, extremes, median, sort_numbers};
+use crate::numerics::{Order, extremes, median, quantiles};
 use crate::spatial::{Vec3, Wrench};
 use std::ops::Range;
 
@@ -310,10 +310,8 @@ fn vertical(channels: &[Vec<f64>], reading: Reading, surface: &Surface, up: Vec3
 /// -1 if the load acts downwards. Without a step, a constant force is either a load or an offset;
 /// then only a force that is too large for an offset counts.
 fn load_sign(vertical: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = vertical.iter().copied().filter(|x| x.is_finite()).collect();
-    sort_numbers(&mut sorted);
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
-    let (Some(low), Some(high), Some(middle)) = (at(0.005), at(0.995), at(0.5)) else { return 1.0 };
+    let found = quantiles(vertical.iter().copied(), [0.005, 0.5, 0.995]);
+    let Some([low, middle, high]) = found else { return 1.0 };
     let turned = if high - low < STEP_N { middle < -STEP_N } else { -low > high };
     if turned { -1.0 } else { 1.0 }
 }
@@ -450,10 +448,7 @@ fn share_on_plate(recording: &PlateRecording) -> Option<f64> {
 fn spread_m(recording: &PlateRecording) -> f64 {
     let centers = solid_centers(recording);
     let along = |axis: usize| {
-        let mut values: Vec<f64> = centers.iter().map(|c| c[axis]).collect();
-        sort_numbers(&mut values);
-        let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0);
-        at(0.95) - at(0.05)
+        quantiles(centers.iter().map(|center| center[axis]), [0.05, 0.95]).map_or(0.0, |[low, high]| high - low)
     };
     Vec3::new(along(0), along(1), along(2)).norm()
 }

@@ -1,7 +1,7 @@
 //! Body weight from quiet standing on force plates.
 
 use super::PlateRecording;
-use crate::numerics::sort_numbers;
+use crate::numerics::quantiles;
 
 /// Smallest total force of a person [N].
 const PERSON_N: f64 = 50.0;
@@ -14,10 +14,8 @@ const STILL_SHARE: f64 = 0.1;
 pub fn standing_weight_n(plates: &[PlateRecording]) -> Option<f64> {
     let samples = plates.iter().map(|p| p.times.len()).min()?;
     let total = |i: usize| plates.iter().map(|p| p.vertical(i)).sum::<f64>();
-    let mut loaded: Vec<f64> = (0..samples).map(total).filter(|x| *x > PERSON_N).collect();
-    sort_numbers(&mut loaded);
-    let at = |share: f64| loaded.get((share * loaded.len() as f64) as usize).copied();
-    let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
+    let loaded: Vec<f64> = (0..samples).map(total).filter(|x| *x > PERSON_N).collect();
+    let [low, middle, high] = quantiles(loaded.iter().copied(), [0.05, 0.5, 0.95])?;
     let still = middle - low <= STILL_SHARE * middle && high - middle <= STILL_SHARE * middle;
     (still && 2 * loaded.len() > samples).then_some(middle)
 }

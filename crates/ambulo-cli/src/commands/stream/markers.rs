@@ -6,7 +6,7 @@ use ambulo::findings::Findings;
 use ambulo::kinematics::marker_fit::{FitSettings, LiveMarkerFit};
 use ambulo::kinematics::{Posture, body_motion};
 use ambulo::model::{BodyId, Model};
-use ambulo::numerics::{median, sort_numbers};
+use ambulo::numerics::{median, quantiles};
 use ambulo::spatial::Vec3;
 use anyhow::{Context, Result, bail};
 
@@ -217,9 +217,7 @@ impl MarkerFrames {
         let bodies = body_motion(model, Posture { q, qd: &rest, qdd: &rest });
         let distance =
             |(place, body, local): (Vec3, BodyId, Vec3)| (bodies[body.index()].pose.place(local) - place).norm();
-        let mut distances: Vec<f64> = self.visible().map(distance).filter(|distance| !distance.is_nan()).collect();
-        sort_numbers(&mut distances);
-        distances.get(3 * distances.len() / 4).copied()
+        quantiles(self.visible().map(distance), [0.75]).map(|[beyond]| beyond)
     }
 }
 

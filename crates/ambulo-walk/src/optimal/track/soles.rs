@@ -11,7 +11,7 @@ use crate::model::anatomy::{Leg, Sole};
 use crate::model::anthropometry::{ContactSphere, SpherePart};
 use crate::model::{BySide, Model, Side};
 use crate::motion::TimeGrid;
-use crate::numerics::sort_numbers;
+use crate::numerics::quantiles;
 use crate::spatial::Vec3;
 
 /// Radius of a sphere, as a share of half the width of the foot.
@@ -128,7 +128,7 @@ pub(super) fn in_stance(foot: &FootGuide, grid: TimeGrid) -> Vec<usize> {
 }
 
 /// The height that a share [`LOWEST`] of the heights is below.
-fn lowest(mut heights: Vec<f64>) -> Option<f64> {
-    sort_numbers(&mut heights);
-    (heights.len() >= FEW).then(|| heights[(LOWEST * heights.len() as f64) as usize])
+fn lowest(heights: Vec<f64>) -> Option<f64> {
+    let has_enough = heights.len() >= FEW;
+    quantiles(heights, [LOWEST]).filter(|_| has_enough).map(|[lowest]| lowest)
 }

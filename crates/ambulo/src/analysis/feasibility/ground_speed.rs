@@ -3,7 +3,7 @@
 use crate::ground::GroundForces;
 use crate::kinematics::{Trajectory, each_body_motion};
 use crate::model::Model;
-use crate::numerics::sort_numbers;
+use crate::numerics::quantiles;
 use crate::spatial::Vec3;
 
 /// A foot that carries more than this share of body weight moves with the ground.
@@ -31,15 +31,8 @@ pub(in crate::analysis) fn over_ground(
             }
         }
     });
-    if feet.is_empty() {
-        return None;
-    }
-    let mut median = Vec3::zeros();
-    for k in 0..3 {
-        let mut along: Vec<f64> = feet.iter().map(|v| v[k]).collect();
-        sort_numbers(&mut along);
-        median[k] = along[along.len() / 2];
-    }
+    let middle = |k: usize| quantiles(feet.iter().map(|velocity| velocity[k]), [0.5]).map(|[middle]| middle);
+    let median = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
     let relative = center / frames - median;
     Some((median, (relative - up * relative.dot(&up)).norm()))
 }

@@ -15,7 +15,7 @@ use crate::findings::{Code, Findings};
 use crate::kinematics::each_body_motion;
 use crate::model::{CoordinateId, Model, Side};
 use crate::motion::TimeGrid;
-use crate::numerics::sort_numbers;
+use crate::numerics::quantiles;
 use std::ops::Range;
 
 /// A feasible motion was judged in at least this share of its frames.
@@ -300,9 +300,7 @@ impl Coverage {
 
 /// The value that a quarter of the values stay below; `None` without values.
 fn lower_quartile(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sort_numbers(&mut sorted);
-    sorted.get(sorted.len() / 4).copied()
+    quantiles(values.iter().copied(), [0.25]).map(|[low]| low)
 }
 
 /// The frames without the first and the last [`EDGE_S`]; none in a motion that is too short to be judged.

@@ -262,10 +262,10 @@ fn gain(witnesses: &[BySide<Distances>; 2], recording: usize, side: Side, pair: 
     let at = |recording: usize, side: Side| &witnesses[recording][side];
     let (own, same) = (at(recording, side), at(1 - recording, side));
     let mirrored = [at(0, side.other()), at(1, side.other())];
-    let agree = |of: &Distances, others: &[&Distances]| contradiction(of, others, pair);
-    let [stated, exchanged] = agree(own, &[same]).filter(|found| is_exchanged(*found))?;
-    agree(own, &[same, mirrored[0], mirrored[1]]).filter(|found| is_exchanged(*found))?;
-    let [stated_there, exchanged_there] = agree(same, &mirrored)?;
+    let against = |others: &[&Distances]| contradiction(own, others, pair);
+    let [stated, exchanged] = against(&[same]).filter(|found| is_exchanged(*found))?;
+    against(&[same, mirrored[0], mirrored[1]]).filter(|found| is_exchanged(*found))?;
+    let [stated_there, exchanged_there] = contradiction(same, &mirrored, pair)?;
     (stated_there < exchanged_there).then_some(stated - exchanged)
 }
 

@@ -3,7 +3,7 @@
 use crate::model::Side;
 use crate::motion::filter::{LowPass, low_pass};
 use crate::motion::{Landmarks, MarkerRecording};
-use crate::numerics::{median, sort_numbers};
+use crate::numerics::{median, quantiles};
 use crate::spatial::Vec3;
 
 /// Low-pass filter of the markers.
@@ -98,9 +98,7 @@ pub(super) fn floor_speed(markers: &MarkerRecording, feet: &[Foot]) -> f64 {
     let mut speeds = Vec::new();
     for path in feet.iter().flat_map(|f| [&f.heel, &f.toe]).flatten() {
         let heights = axis(path, 1);
-        let mut sorted: Vec<f64> = heights.iter().copied().filter(|h| h.is_finite()).collect();
-        sort_numbers(&mut sorted);
-        let Some(lowest) = sorted.get(sorted.len() / 20) else { continue };
+        let Some([lowest]) = quantiles(heights.iter().copied(), [0.05]) else { continue };
         let speed = rate(&axis(path, 0), markers.rate_hz);
         let low = (0..path.len()).filter(|&i| heights[i] <= lowest + ON_FLOOR_M && speed[i].is_finite());
         speeds.extend(low.map(|i| speed[i]));
